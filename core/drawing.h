@@ -1,0 +1,28 @@
+// Drawing is a sink: the engine hands cells and volumes to this interface while it answers a view;
+// an SVG file, the viewer page and a recorder are implementations.
+#pragma once
+
+#include "gridcull/core/ids.h"
+#include "gridcull/core/vec.h"
+
+namespace gridcull {
+
+enum class CellLayer {
+  visited,        ///< in the view volume and not hidden
+  opaque,         ///< O: wholly inside one occluder
+  hidden,         ///< H: wholly hidden from the viewer
+  touched,        ///< I: an object may touch it
+  tbv,            ///< T: a temporal bounding volume touches it
+  line_of_sight   ///< seed cells of the traversal
+};
+
+/// Boxes are [low, high] in metres and stand for one cell or a run of cells. In 2D z is 0.
+class DrawSink {
+ public:
+  virtual ~DrawSink() = default;
+  virtual void cells(CellLayer layer, const Vec3& low, const Vec3& high) = 0;
+  /// A temporal bounding volume: ball (2D: disc) about `centre`; `revealed` in this frame by this view.
+  virtual void tbv(ObjectId object, const Vec3& centre, double radius, bool revealed) = 0;
+};
+
+}  // namespace gridcull

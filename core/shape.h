@@ -1,0 +1,88 @@
+// The shapes of objects, in local coordinates (metres), as FORMATS names them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "gridcull/core/pose.h"
+#include "gridcull/core/vec.h"
+
+namespace gridcull {
+
+// 2D, closed unless said otherwise.
+
+struct Disc {
+  double radius;  ///< > 0
+};
+/// Centred on the origin, length along the heading.
+struct Rectangle {
+  Vec2 size;  ///< length, width; > 0
+};
+/// Closed outline, either turn, concave or self-crossing (even-odd rule). At least three distinct points.
+/// Without area it has no interior and hides nothing.
+struct Polygon {
+  std::vector<Vec2> vertices;
+};
+/// Open chain of walls without thickness: no interior, but crossing a wall blocks. At least two points.
+struct Polyline {
+  std::vector<Vec2> vertices;
+};
+
+// 3D.
+
+struct Sphere {
+  double radius;  ///< > 0
+};
+/// Centred on the origin.
+struct Cuboid {
+  Vec3 size;  ///< > 0
+};
+/// Polygon (as in 2D) swept from z = 0 to z = height.
+struct Prism {
+  std::vector<Vec2> vertices;
+  double height;  ///< > 0
+};
+/// Convex hull of its points; at least four, not all in one plane.
+struct Convex {
+  std::vector<Vec3> vertices;
+};
+/// Triangles without thickness: no interior, but crossing one blocks.
+struct Faces {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+using Shape = std::variant<Disc, Rectangle, Polygon, Polyline, Sphere, Cuboid, Prism, Convex, Faces>;
+
+/// 2 or 3.
+int dimension_of(const Shape& shape);
+
+/// The name FORMATS gives it: "disc", "box", "polygon", ...
+std::string_view name_of(const Shape& shape);
+
+/// Whether it is a thin shape (`Polyline`, `Faces`): blocks on crossing, holds no cell.
+bool is_thin(const Shape& shape);
+
+/// Greatest distance of a point of the shape from its origin: at any orientation the object stays
+/// inside the ball of this radius about its position (rounded up).
+double reach_of(const Shape& shape);
+
+/// Throws Error(bad_scene) with one line when a size is not positive or not finite, a magnitude is
+/// above 1e9, a polygon has fewer than three distinct points, a hull is flat, or an index is out of range.
+void validate(const Shape& shape);
+
+/// The points of an outline with repeated neighbours (and a repeated closing point) merged.
+std::vector<Vec2> merged_outline(const std::vector<Vec2>& vertices);
+
+/// World vertices of a 2D shape's outline or chain: Rectangle (4, counter-clockwise), Polygon (merged),
+/// Polyline. Empty for a Disc. Every consumer uses these rounded points.
+std::vector<Vec2> world_outline(const Shape& shape, const Pose& pose);
+
+/// World vertices of a 3D shape: Cuboid (8: bit 0 = +x, bit 1 = +y, bit 2 = +z), Prism (outline at the
+/// bottom, then at the top), Convex and Faces (as given). Empty for a Sphere.
+std::vector<Vec3> world_vertices(const Shape& shape, const Pose& pose);
+
+}  // namespace gridcull

@@ -1,0 +1,16 @@
+// Sine and cosine with the same bits on every machine.
+#pragma once
+
+namespace gridcull {
+
+struct SinCos {
+  double sin;
+  double cos;
+};
+
+/// Sine and cosine of `angle` (radians, finite), error below 2 ulp for |angle| <= 1e5.
+/// The C library picks its kernel by processor (with or without fused multiply-add), so its last bit
+/// differs between machines; answers must not. Exact at 0: {0, 1}.
+SinCos stable_sincos(double angle);
+
+}  // namespace gridcull

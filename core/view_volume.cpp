@@ -1,0 +1,184 @@
+// Margins: every dot product here is a sum of at most three products of doubles, so its rounding error is
+// below 4 ulp of (sum of the magnitudes) <= 1e-15 * (|normal| |p| + |offset|); slack() is ten times that.
+#include "gridcull/core/view_volume.h"
+
+#include <cmath>
+#include <string>
+
+#include "gridcull/core/error.h"
+#include "gridcull/core/hull.h"
+#include "gridcull/core/trigonometry.h"
+
+namespace gridcull {
+namespace {
+
+double slack(const Vec3& a, const Vec3& b) {
+  return 1e-14 * (std::fabs(a.x) + std::fabs(a.y) + std::fabs(a.z) + std::fabs(b.x) + std::fabs(b.y) + std::fabs(b.z));
+}
+
+[[noreturn]] void refuse(const View& view, const char* what) {
+  throw Error(ErrorCode::bad_frame, "viewer " + std::to_string(view.viewer) + ": " + what);
+}
+
+void check(const View& view, int dimension) {
+  const Vec3& p = view.pose.position;
+  if (!(std::fabs(p.x) <= 1e9 && std::fabs(p.y) <= 1e9 && std::fabs(p.z) <= 1e9)) {
+    refuse(view, "expected a finite position of magnitude at most 1e9");
+  }
+  if (!(view.range > 0.0)) refuse(view, "expected a range above 0");
+  if (dimension == 2) {
+    if (!(view.fov > 0.0 && view.fov <= 2.0 * std::numbers::pi)) refuse(view, "expected a field of view above 0 and at most 360 degrees");
+    return;
+  }
+  if (!view.frustum) return;
+  const Frustum& f = *view.frustum;
+  if (!(f.fov_y > 0.0 && f.fov_y < std::numbers::pi)) refuse(view, "expected fov_y above 0 and below 180 degrees");
+  if (!(f.aspect > 0.0 && std::isfinite(f.aspect))) refuse(view, "expected an aspect above 0");
+  if (!(f.near >= 0.0 && std::isfinite(f.near))) refuse(view, "expected near at least 0");
+  if (!(f.far > f.near)) refuse(view, "expected far above near");
+}
+
+}  // namespace
+
+ViewVolume::ViewVolume(const View& view, int dimension)
+    : dimension_(dimension), apex_(view.pose.position), range_(view.range), far_(std::numeric_limits<double>::infinity()) {
+  check(view, dimension);
+  const Rotation r = rotation_of(view.pose.orientation);
+  axis_ = r.x;
+  const auto side = [&](const Vec3& local) {
+    const Vec3 n = glm::normalize(r * local);
+    side_[static_cast<std::size_t>(sides_++)] = {n, glm::dot(n, apex_)};
+  };
+  if (dimension == 2) {
+    if (view.fov >= 2.0 * std::numbers::pi) return;
+    const SinCos half = stable_sincos(0.5 * view.fov);
+    side({half.sin, half.cos, 0.0});
+    side({half.sin, -half.cos, 0.0});
+    convex_ = view.fov <= std::numbers::pi;
+    return;
+  }
+  if (!view.frustum) return;
+  const SinCos half = stable_sincos(0.5 * view.frustum->fov_y);
+  const double tangent_y = half.sin / half.cos;
+  const double tangent_x = tangent_y * view.frustum->aspect;
+  side({tangent_x, 1.0, 0.0});
+  side({tangent_x, -1.0, 0.0});
+  side({tangent_y, 0.0, 1.0});
+  side({tangent_y, 0.0, -1.0});
+  near_ = view.frustum->near;
+  far_ = view.frustum->far;
+}
+
+template <class Support>
+bool ViewVolume::may_touch_support(const Support& support) const {
+  // support(n): an upper bound of dot(n, p - apex) over the shape's points.
+  bool outside_all = sides_ > 0;
+  for (const HalfSpace& h : *this) {
+    const bool outside = support(h.normal) < 0.0;
+    if (outside && convex_) return false;
+    outside_all = outside_all && outside;
+  }
+  if (outside_all) return false;
+  if (near_ > 0.0 && support(axis_) < near_) return false;
+  if (std::isfinite(far_) && -support(-axis_) > far_) return false;
+  return true;
+}
+
+bool ViewVolume::may_touch_ball(const Vec3& centre, double radius) const {
+  const Vec3 d = centre - apex_;
+  const double margin = slack(centre, apex_) + 1e-14 * radius;
+  if (glm::length(d) - radius > range_ * (1.0 + 1e-14) + margin) return false;
+  return may_touch_support([&](const Vec3& n) { return glm::dot(n, d) + radius + margin; });
+}
+
+bool ViewVolume::may_touch(const Shape& shape, const Pose& pose) const {
+  if (!may_touch_ball(pose.position, reach_of(shape))) return false;
+  if (std::holds_alternative<Disc>(shape) || std::holds_alternative<Sphere>(shape)) return true;
+  std::vector<Vec3> points = world_vertices(shape, pose);
+  if (dimension_ == 2) {
+    for (const Vec2& p : world_outline(shape, pose)) points.emplace_back(p, 0.0);
+  }
+  const bool touches = may_touch_support([&](const Vec3& n) {
+    double best = -std::numeric_limits<double>::infinity();
+    for (const Vec3& p : points) best = std::max(best, glm::dot(n, p - apex_) + slack(p, apex_));
+    return best;
+  });
+  if (!touches) return false;
+  if (dimension_ == 3 || !std::isfinite(range_)) return true;
+  const double margin = slack(pose.position, apex_) + 1e-14 * reach_of(shape);
+  return distance_2d({apex_.x, apex_.y}, shape, pose) <= range_ * (1.0 + 1e-14) + margin;
+}
+
+namespace {
+
+double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 e = b - a;
+  const double square = glm::dot(e, e);
+  const double t = square > 0.0 ? std::fmin(1.0, std::fmax(0.0, glm::dot(p - a, e) / square)) : 0.0;
+  return glm::length(p - (a + t * e));
+}
+
+/// Even-odd rule; points on the outline count as either.
+bool even_odd(const std::vector<Vec2>& outline, const Vec2& p) {
+  bool inside = false;
+  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const Vec2 &a = outline[j], &b = outline[i];
+    if ((a.y > p.y) == (b.y > p.y)) continue;
+    const double side = cross2(b - a, p - a);
+    if ((b.y > a.y) ? side > 0.0 : side < 0.0) inside = !inside;
+  }
+  return inside;
+}
+
+bool on_outline(const std::vector<Vec2>& outline, const Vec2& p) {
+  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const Vec2 a = outline[j] - p, b = outline[i] - p;
+    if (cross2(a, b) == 0.0 && glm::dot(a, b) <= 0.0) return true;
+  }
+  return false;
+}
+
+bool polygon_holds(const std::vector<Vec2>& outline, const Vec2& p) {
+  return even_odd(outline, p) && !on_outline(outline, p);
+}
+
+}  // namespace
+
+double distance_2d(const Vec2& point, const Shape& shape, const Pose& pose) {
+  if (const auto* disc = std::get_if<Disc>(&shape)) {
+    return std::fmax(0.0, glm::length(point - Vec2(pose.position)) - disc->radius);
+  }
+  const std::vector<Vec2> outline = world_outline(shape, pose);
+  const bool open = is_thin(shape);
+  if (!open && even_odd(outline, point)) return 0.0;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t i = open ? 1 : 0; i < outline.size(); ++i) {
+    const Vec2& before = outline[i == 0 ? outline.size() - 1 : i - 1];
+    best = std::fmin(best, distance_to_segment(point, before, outline[i]));
+  }
+  return best;
+}
+
+bool interior_holds(const Shape& shape, const Pose& pose, const Vec3& point) {
+  if (const auto* disc = std::get_if<Disc>(&shape)) {
+    const Vec2 d = Vec2(point) - Vec2(pose.position);
+    return glm::dot(d, d) < disc->radius * disc->radius;
+  }
+  if (std::holds_alternative<Rectangle>(shape) || std::holds_alternative<Polygon>(shape)) {
+    return polygon_holds(world_outline(shape, pose), Vec2(point));
+  }
+  const Vec3 d = point - pose.position;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return glm::dot(d, d) < sphere->radius * sphere->radius;
+  const Vec3 local = rotation_of(pose.orientation).inverse(d);
+  if (const auto* box = std::get_if<Cuboid>(&shape)) {
+    return std::fabs(local.x) < 0.5 * box->size.x && std::fabs(local.y) < 0.5 * box->size.y &&
+           std::fabs(local.z) < 0.5 * box->size.z;
+  }
+  if (const auto* prism = std::get_if<Prism>(&shape)) {
+    return local.z > 0.0 && local.z < prism->height && polygon_holds(merged_outline(prism->vertices), Vec2(local));
+  }
+  if (const auto* convex = std::get_if<Convex>(&shape)) return hull_holds(convex->vertices, local);
+  return false;
+}
+
+}  // namespace gridcull

@@ -1,0 +1,65 @@
+// The regular-grid engine: method `voxel` (Batagelo and Wu 2002), 2D and 3D.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "gridcull/core/bounds.h"
+#include "gridcull/core/culler.h"
+#include "gridcull/core/drawing.h"
+#include "gridcull/grid/lattice.h"
+
+namespace gridcull {
+
+enum class TbvMode {
+  off,    ///< every moving object is read and discretised in every frame
+  solid,  ///< temporal bounding volumes as filled discs or balls: the safe default
+  hollow  ///< outlines only (2D circle, 3D cube faces), where that is provably safe; solid elsewhere
+};
+
+struct GridOptions {
+  int dimension = 2;
+  Bounds bounds{};
+  double cell = 1.0;  ///< metres, > 0
+  TbvMode tbv = TbvMode::solid;
+  int threads = 1;                                   ///< 1 .. 256; viewers run in parallel
+  std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes for the matrices
+};
+
+/// Bytes held, by part.
+struct MemoryUse {
+  std::uint64_t matrices = 0;  ///< O, O_s and the heads of I and T
+  std::uint64_t viewers = 0;   ///< per-thread H, view copies and queues
+  std::uint64_t entries = 0;   ///< entries of I and T
+  std::uint64_t objects = 0;   ///< object table and shapes
+  std::uint64_t total() const { return matrices + viewers + entries + objects; }
+};
+
+/// One world on one grid. No global state: any number may live in a process; one instance is used by one
+/// thread at a time (it runs threads of its own inside query()).
+class GridEngine final : public Culler {
+ public:
+  /// Throws Error(bad_scene) or Error(limit) as Lattice does, Error(usage) for threads out of range.
+  explicit GridEngine(const GridOptions& options);
+  ~GridEngine() override;
+
+  const MethodInfo& info() const override;
+  void add(const Object& object) override;
+  void remove(ObjectId object) override;
+  void move(ObjectId object, const Pose& pose) override;
+  void set_source(PositionSource* source) override;
+  void announce_jump(ObjectId object) override;
+  void query(double time, std::span<const View> views, Answers& out) override;
+
+  /// Draws the traversal of `viewer` in the next query() (once) into `sink`; nullptr cancels.
+  void draw_next(ViewerId viewer, DrawSink* sink);
+
+  const Lattice& lattice() const;
+  MemoryUse memory() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gridcull
