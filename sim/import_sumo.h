@@ -1,0 +1,40 @@
+// Import of SUMO's floating-car data and building polygons.
+//
+// SUMO gives the middle of a vehicle's front bumper and its angle in degrees clockwise from north (+y);
+// a box of ours has its centre half a length behind. Persons become discs about their position.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "gridcull/core/vec.h"
+#include "gridcull/sim/imported.h"
+
+namespace gridcull {
+
+struct SumoOptions {
+  std::string fcd{};        ///< XML, may be .gz
+  std::string buildings{};  ///< poly.xml, may be .gz; "" for none
+  /// x0, y0, x1, y1 (metres). Left out are: buildings whose bounding box does not meet it, vehicles and
+  /// persons in the steps in which their centre lies outside it. It becomes the scene's bounds.
+  std::optional<std::array<double, 4>> box{};
+  ViewerChoice viewers{};
+  std::optional<double> range{};  ///< metres
+  Vec2 vehicle_size{5.0, 1.8};    ///< length, width; metres
+  double person_radius = 0.25;    ///< metres
+  double max_speed = 60.0;        ///< of vehicles, m/s
+  double person_max_speed = 10.0;
+  std::uint64_t every = 1;  ///< keep steps 0, N, 2N ...
+  /// Told after each kept step; may throw to stop.
+  std::function<void(std::uint64_t frames)> progress{};
+};
+
+/// Reads step by step, holding one step in memory. Without a box the scene's bounds are those of all
+/// buildings and ways, rounded outward to metres. Throws Error(io), Error(bad_message) for files that are
+/// not what they should be or end in the middle, Error(usage) for options out of range and for chosen
+/// viewers that never appear.
+Imported import_sumo(const SumoOptions& options, const FrameSink& sink);
+
+}  // namespace gridcull

@@ -1,0 +1,65 @@
+// Scenes: the start of a moving world, as files of the format `gridcull.scene/1`.
+//
+// Readers refuse what they do not know. A refusal is one line: file, JSON pointer, what was expected, what
+// stood there, as in `town.json: /objects/3/shape/radius: expected a number above 0, found -1`.
+#pragma once
+
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gridcull/core/bounds.h"
+#include "gridcull/core/object.h"
+#include "gridcull/core/view.h"
+
+namespace gridcull {
+
+/// An object as a scene or frames file gives it.
+struct SceneObject {
+  Object object{};
+  std::string name{};               ///< "" when the file gives none
+  std::optional<double> heading{};  ///< radians, as given; object.pose.orientation is turn_about_z() of it
+};
+
+/// A viewer as a scene gives it.
+struct SceneViewer {
+  ViewerId id = no_id;
+  /// The object it rides on. Without it pose.position is its place in the world; with it pose.position is
+  /// the offset in that object's frame (metres).
+  std::optional<ObjectId> follows{};
+  /// orientation is absolute and counts only when own_direction; else the viewer looks as the followed
+  /// object does, or along +x.
+  Pose pose{};
+  bool own_direction = false;
+  std::optional<double> heading{};                         ///< radians, as given
+  double range = std::numeric_limits<double>::infinity();  ///< metres, > 0
+  double fov = 2.0 * std::numbers::pi;                     ///< 2D: radians, full angle
+  std::optional<Frustum> frustum{};                        ///< 3D: none means all directions
+};
+
+struct Scene {
+  int dimension = 2;
+  std::optional<Bounds> bounds{};  ///< none: to be derived from the content
+  std::optional<double> cell{};    ///< metres; none: to be derived from the content
+  std::vector<SceneObject> objects{};
+  std::vector<SceneViewer> viewers{};
+};
+
+/// Reads a scene file ("-" is standard input, .gz is unpacked). Throws Error(io), Error(bad_message) for
+/// text that is not JSON and Error(bad_scene) for everything else.
+Scene read_scene(const std::string& path);
+
+/// The same from text; `source_name` stands at the front of refusals.
+Scene parse_scene(std::string_view text, const std::string& source_name);
+
+/// Writes a scene so that reading it gives the same bits. "-" is standard output; .gz packs; the file
+/// appears whole or not at all. Throws Error(io).
+void write_scene(const std::string& path, const Scene& scene);
+
+/// The text that write_scene() writes.
+std::string scene_text(const Scene& scene);
+
+}  // namespace gridcull

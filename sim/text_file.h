@@ -1,0 +1,58 @@
+// Text files in and out: plain, packed (.gz by name) or standard input and output ("-").
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace gridcull {
+
+/// Reads a file piece by piece or line by line. Throws Error(io) when it cannot be opened or read, is named
+/// .gz but is not packed, or is a .gz that ends too early or is damaged.
+class TextReader {
+ public:
+  explicit TextReader(const std::string& path);
+  ~TextReader();
+  TextReader(TextReader&&) noexcept;
+  TextReader& operator=(TextReader&&) noexcept;
+
+  /// Next piece of at most `size` bytes; 0 at the end.
+  std::size_t read(char* into, std::size_t size);
+  /// Next line without its end (\n or \r\n); false at the end. Throws Error(limit) above 1 GiB.
+  bool line(std::string& out);
+  /// Number of the line that line() gave last, from 1.
+  std::uint64_t line_number() const;
+  /// The name for messages: the path, "standard input" for "-".
+  const std::string& name() const;
+
+ private:
+  struct Detail;
+  std::unique_ptr<Detail> detail_;
+};
+
+/// The whole file.
+std::string read_text(const std::string& path);
+
+/// Writes a file beside its name and puts it there on commit(); without commit() nothing is left. Standard
+/// output and things that are not plain files (/dev/null, pipes) are written directly. Throws Error(io).
+class TextWriter {
+ public:
+  explicit TextWriter(const std::string& path);
+  ~TextWriter();
+  TextWriter(TextWriter&&) noexcept;
+  TextWriter& operator=(TextWriter&&) noexcept;
+
+  void write(std::string_view text);
+  void commit();
+
+ private:
+  struct Detail;
+  std::unique_ptr<Detail> detail_;
+};
+
+/// Writes and commits.
+void write_text(const std::string& path, std::string_view text);
+
+}  // namespace gridcull

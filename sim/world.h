@@ -1,0 +1,59 @@
+// The moving world: current objects and viewers, a frame at a time.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "gridcull/sim/frames.h"
+#include "gridcull/sim/scene.h"
+
+namespace gridcull {
+
+class World {
+ public:
+  /// Throws Error(bad_scene) for an id twice and for a viewer that follows an object that is not there.
+  explicit World(const Scene& scene);
+
+  /// Applies remove, add, set, drop_viewers and viewers in that order. Throws Error(bad_frame) or
+  /// Error(unknown_object) and then changes nothing.
+  ///
+  /// A viewer update may name a `follows` that is not there only if the viewer follows that object already.
+  /// A viewer that ends `follows` by a position and has no direction of its own looks along +x.
+  void apply(const Frame& frame);
+
+  int dimension() const { return dimension_; }
+  /// The last frame's time; none before the first.
+  std::optional<double> time() const { return time_; }
+
+  /// All objects, contiguous, in no particular order; valid until the next apply().
+  std::span<const Object> objects() const { return objects_; }
+  bool has(ObjectId id) const { return index_.contains(id); }
+  /// Throws Error(unknown_object).
+  const Object& object(ObjectId id) const;
+
+  /// The viewers' questions in viewer-id order. A viewer whose object is gone is left out until it is back.
+  std::vector<View> views() const;
+  /// The same into a buffer that is reused.
+  void views(std::vector<View>& out) const;
+  /// All viewers, those whose object is gone included.
+  std::size_t viewer_count() const { return viewers_.size(); }
+
+ private:
+  struct Plan;
+  void check(const Frame& frame, Plan& plan) const;
+  void check_objects(const Frame& frame, Plan& plan) const;
+  void check_viewers(const Frame& frame, Plan& plan) const;
+  void insert(const Object& object);
+  void erase(ObjectId id);
+
+  int dimension_;
+  std::optional<double> time_{};
+  std::vector<Object> objects_{};
+  std::unordered_map<ObjectId, std::size_t> index_{};  ///< id -> place in objects_; looked up, never walked
+  std::map<ViewerId, SceneViewer> viewers_{};
+};
+
+}  // namespace gridcull
