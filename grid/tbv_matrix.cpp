@@ -1,0 +1,124 @@
+#include "gridcull/grid/tbv_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gridcull/grid/bits.h"
+
+namespace gridcull {
+
+TbvMatrix::TbvMatrix(const Lattice& lattice) : lattice_(lattice), counts_(lattice.brick_count(), 0) {
+  // Level 0 is two bricks wide; the last one holds the whole lattice in one cell.
+  const Cell n = lattice.cells();
+  for (int shift = lattice.brick_shift() + 1;; ++shift) {
+    Level level;
+    level.shift = shift;
+    level.side = lattice.cell() * std::ldexp(1.0, shift);
+    const auto along = [&](std::int64_t cells) { return ((cells - 1) >> shift) + 1; };
+    level.cells = {along(n.x), along(n.y), along(n.z)};
+    const bool last = level.cells == Cell{1, 1, 1};
+    levels_.push_back(std::move(level));
+    if (last) break;
+  }
+}
+
+bool TbvMatrix::fits(const Ball& ball) const {
+  const Bounds box = lattice_.box();
+  const double r = ball.radius + 2.0 * lattice_.margin();
+  for (int k = 0; k < lattice_.dimension(); ++k) {
+    if (!(ball.centre[k] - r >= box.min[k] && ball.centre[k] + r <= box.max[k])) return false;
+  }
+  return true;
+}
+
+std::uint32_t TbvMatrix::level_for(double radius) const {
+  std::uint32_t level = 0;
+  // A ball that fits is no wider than the lattice, so the last level always takes it. The margin keeps the
+  // reach below half a side in spite of rounded cell boundaries.
+  while (level + 1 < levels_.size() && levels_[level].side < 2.0 * (radius + 4.0 * lattice_.margin())) ++level;
+  return level;
+}
+
+std::uint32_t TbvMatrix::level_cell(const Level& level, const Cell& c) const {
+  return static_cast<std::uint32_t>(((c.z >> level.shift) * level.cells.y + (c.y >> level.shift)) * level.cells.x +
+                                    (c.x >> level.shift));
+}
+
+void TbvMatrix::count(const Ball& ball, std::uint32_t step) {
+  const int s = lattice_.brick_shift();
+  const Vec3 r(ball.radius + lattice_.margin());
+  const Cell low = lattice_.cell_of(ball.centre - r), high = lattice_.cell_of(ball.centre + r);
+  const std::int64_t z0 = low.z >> s, z1 = high.z >> s;
+  for (std::int64_t z = z0; z <= z1; ++z) {
+    for (std::int64_t y = low.y >> s; y <= high.y >> s; ++y) {
+      const std::size_t row = lattice_.brick_index({0, y, z});
+      for (std::int64_t x = low.x >> s; x <= high.x >> s; ++x) counts_[row + static_cast<std::size_t>(x)] += step;
+    }
+  }
+}
+
+void TbvMatrix::insert(Slot slot, const Ball& ball) {
+  Link& link = links_[slot];
+  balls_[slot] = ball;
+  link.level = level_for(ball.radius);
+  Level& level = levels_[link.level];
+  if (level.heads.empty()) {
+    level.heads.assign(static_cast<std::size_t>(level.cells.x * level.cells.y * level.cells.z), none);
+  }
+  link.cell = level_cell(level, lattice_.cell_of(ball.centre));
+  link.before = none;
+  link.after = level.heads[link.cell];
+  if (link.after != none) links_[link.after].before = slot;
+  level.heads[link.cell] = slot;
+  ++level.size;
+  ++size_;
+  count(ball, 1);
+}
+
+void TbvMatrix::erase(Slot slot) {
+  Link& link = links_[slot];
+  Level& level = levels_[link.level];
+  (link.before == none ? level.heads[link.cell] : links_[link.before].after) = link.after;
+  if (link.after != none) links_[link.after].before = link.before;
+  link.level = none;
+  --level.size;
+  --size_;
+  count(balls_[slot], static_cast<std::uint32_t>(-1));
+}
+
+bool TbvMatrix::ball_touches(const Ball& ball, const Cell& corner, std::uint64_t bits) const {
+  const int edge = lattice_.brick_edge();
+  const int layers = lattice_.dimension() == 3 ? edge : 1;
+  const double r = ball.radius + lattice_.margin();
+  const auto gap = [&](int axis, std::int64_t cell) {
+    const double low = lattice_.boundary(axis, cell) - ball.centre[axis];
+    const double high = ball.centre[axis] - lattice_.boundary(axis, cell + 1);
+    return std::max({low, high, 0.0});
+  };
+  const std::uint64_t row_mask = lattice_.dimension() == 3 ? 0xFu : 0xFFu;
+  for (int z = 0; z < layers; ++z) {
+    const double gz = lattice_.dimension() == 3 ? gap(2, corner.z + z) : 0.0;
+    for (int y = 0; y < edge; ++y) {
+      const std::uint64_t row = (bits >> ((z * edge + y) * edge)) & row_mask;
+      if (row == 0) continue;
+      const double gy = gap(1, corner.y + y);
+      const double rest = r * r - gy * gy - gz * gz;
+      if (rest < 0.0) continue;
+      bool hit = false;
+      for_each_bit(row, [&](int x) {
+        const double gx = gap(0, corner.x + x);
+        hit = hit || gx * gx <= rest;
+      });
+      if (hit) return true;
+    }
+  }
+  return false;
+}
+
+std::uint64_t TbvMatrix::matrix_bytes() const {
+  std::uint64_t bytes = counts_.size() * sizeof(std::uint32_t);
+  for (const Level& level : levels_) bytes += level.heads.size() * sizeof(std::uint32_t);
+  return bytes;
+}
+
+}  // namespace gridcull

@@ -1,0 +1,109 @@
+// The matrix T of solid temporal bounding volumes (Batagelo and Wu 2002, sections 3 and 4.1; Sudarsky and
+// Gotsman 1999).
+//
+// The paper enters a volume's id into every cell that it spans. Here a volume is entered once, in the cell
+// of the level whose side is at least its diameter and that holds its centre ("loose": it reaches at most
+// half a side beyond), and every brick counts the volumes that may touch it. A brick that nobody's volume
+// may touch costs one load in the traversal; renewing a volume costs a few stores whatever its size.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gridcull/grid/identifier_matrix.h"
+#include "gridcull/grid/lattice.h"
+
+namespace gridcull {
+
+class TbvMatrix {
+ public:
+  struct Ball {
+    Vec3 centre{0.0};
+    double radius = 0.0;
+  };
+
+  explicit TbvMatrix(const Lattice& lattice);
+
+  void reserve(std::size_t slots) {
+    if (slots > links_.size()) links_.resize(slots), balls_.resize(slots);
+  }
+
+  /// Whether the ball lies wholly in the lattice, so that insert() takes it.
+  bool fits(const Ball& ball) const;
+  /// The slot must not be in the matrix; `ball` must fit.
+  void insert(Slot slot, const Ball& ball);
+  void erase(Slot slot);
+  bool holds(Slot slot) const { return slot < links_.size() && links_[slot].level != none; }
+  const Ball& ball(Slot slot) const { return balls_[slot]; }
+  std::uint64_t size() const { return size_; }
+
+  /// Whether some volume may touch the brick.
+  bool may_touch(std::size_t brick) const { return counts_[brick] != 0; }
+
+  /// Calls f(slot) for every volume that may touch one of the cells `bits` of the brick. f must not change
+  /// the matrix. Returns the number of volumes looked at.
+  template <class F>
+  std::uint64_t touching(std::size_t brick, std::uint64_t bits, F&& f) const;
+
+  std::uint64_t matrix_bytes() const;
+  std::uint64_t entry_bytes() const { return links_.capacity() * sizeof(Link) + balls_.capacity() * sizeof(Ball); }
+
+ private:
+  struct Link {
+    std::uint32_t before = none, after = none, cell = none, level = none;
+  };
+  struct Level {
+    Cell cells;                        // level cells along each axis
+    int shift = 0;                     // level cell = cell >> shift
+    double side = 0;                   // metres
+    std::vector<std::uint32_t> heads;  // allocated on first use
+    std::uint64_t size = 0;
+  };
+
+  std::uint32_t level_for(double radius) const;
+  std::uint32_t level_cell(const Level& level, const Cell& c) const;
+  /// Adds `step` to the count of every brick that the ball's box touches.
+  void count(const Ball& ball, std::uint32_t step);
+  bool ball_touches(const Ball& ball, const Cell& corner, std::uint64_t bits) const;
+
+  const Lattice& lattice_;
+  std::vector<Level> levels_;
+  std::vector<std::uint32_t> counts_;
+  std::vector<Link> links_;
+  std::vector<Ball> balls_;
+  std::uint64_t size_ = 0;
+};
+
+template <class F>
+std::uint64_t TbvMatrix::touching(std::size_t brick, std::uint64_t bits, F&& f) const {
+  std::uint64_t looked = 0;
+  const Cell corner = lattice_.brick_corner(brick);
+  const std::int64_t edge = lattice_.brick_edge();
+  for (const Level& level : levels_) {
+    if (level.size == 0) continue;
+    // Level cells whose volumes may reach the brick: they reach half a side beyond their cell.
+    const std::int64_t reach = std::int64_t{1} << (level.shift - 1);
+    Cell low, high;
+    const auto span = [&](std::int64_t from, std::int64_t count, std::int64_t& l, std::int64_t& h) {
+      l = std::max<std::int64_t>(0, (from - reach) >> level.shift);
+      h = std::min(count - 1, (from + edge - 1 + reach) >> level.shift);
+    };
+    span(corner.x, level.cells.x, low.x, high.x);
+    span(corner.y, level.cells.y, low.y, high.y);
+    if (lattice_.dimension() == 3) span(corner.z, level.cells.z, low.z, high.z);
+    for (std::int64_t z = low.z; z <= high.z; ++z) {
+      for (std::int64_t y = low.y; y <= high.y; ++y) {
+        for (std::int64_t x = low.x; x <= high.x; ++x) {
+          const auto cell = static_cast<std::size_t>((z * level.cells.y + y) * level.cells.x + x);
+          for (std::uint32_t slot = level.heads[cell]; slot != none; slot = links_[slot].after) {
+            ++looked;
+            if (ball_touches(balls_[slot], corner, bits)) f(slot);
+          }
+        }
+      }
+    }
+  }
+  return looked;
+}
+
+}  // namespace gridcull
