@@ -45,8 +45,8 @@ class Replay final : private PositionSource {
  private:
   Pose pose(ObjectId object) override;
   bool take_frame();
-  void feed_objects();
-  void feed_move(const ObjectMove& move, const Vec3& before, double seconds);
+  void feed_objects(double seconds);
+  void feed_move(const Object& object, const Vec3& before, double seconds);
 
   Culler& culler_;
   FrameSource* frames_;

@@ -43,9 +43,9 @@ class World {
 
  private:
   struct Plan;
-  void check(const Frame& frame, Plan& plan) const;
   void check_objects(const Frame& frame, Plan& plan) const;
   void check_viewers(const Frame& frame, Plan& plan) const;
+  bool has_after(ObjectId id, const Plan& plan) const;
   void insert(const Object& object);
   void erase(ObjectId id);
 

@@ -1,0 +1,169 @@
+#include "gridcull/sim/shape_json.h"
+
+#include "gridcull/sim/json_text.h"
+
+namespace gridcull {
+namespace {
+
+std::vector<Vec2> read_points_2d(const JsonRef& json) {
+  std::vector<Vec2> out;
+  for (const JsonRef& point : json.items()) out.emplace_back(point.point(2));
+  return out;
+}
+
+std::vector<Vec3> read_points_3d(const JsonRef& json) {
+  std::vector<Vec3> out;
+  for (const JsonRef& point : json.items()) out.push_back(point.point(3));
+  return out;
+}
+
+Vec3 read_size(const JsonRef& json, int dimension) {
+  const Vec3 size = json.point(dimension);
+  const std::vector<JsonRef> parts = json.items();
+  for (int axis = 0; axis < dimension; ++axis) parts[static_cast<std::size_t>(axis)].positive();
+  return size;
+}
+
+Faces read_faces(const JsonRef& json) {
+  Faces out{read_points_3d(json.at("vertices")), {}};
+  for (const JsonRef& triangle : json.at("triangles").items()) {
+    const std::vector<JsonRef> corners = triangle.items();
+    if (corners.size() != 3) triangle.refuse("3 vertex numbers");
+    for (const JsonRef& corner : corners) {
+      if (corner.id() >= out.vertices.size()) {
+        corner.refuse("the number of one of the " + std::to_string(out.vertices.size()) + " vertices");
+      }
+    }
+    out.triangles.push_back({corners[0].id(), corners[1].id(), corners[2].id()});
+  }
+  return out;
+}
+
+Shape read_2d(const JsonRef& json, std::string_view type) {
+  if (type == "disc") {
+    json.only_keys({"type", "radius"});
+    return Disc{json.at("radius").positive()};
+  }
+  if (type == "box") {
+    json.only_keys({"type", "size"});
+    return Rectangle{Vec2(read_size(json.at("size"), 2))};
+  }
+  if (type == "polygon" || type == "polyline") {
+    json.only_keys({"type", "vertices"});
+    std::vector<Vec2> vertices = read_points_2d(json.at("vertices"));
+    if (type == "polygon") return Polygon{std::move(vertices)};
+    return Polyline{std::move(vertices)};
+  }
+  json.at("type").refuse("a 2D shape: disc, box, polygon or polyline");
+}
+
+Shape read_3d(const JsonRef& json, std::string_view type) {
+  if (type == "sphere") {
+    json.only_keys({"type", "radius"});
+    return Sphere{json.at("radius").positive()};
+  }
+  if (type == "box") {
+    json.only_keys({"type", "size"});
+    return Cuboid{read_size(json.at("size"), 3)};
+  }
+  if (type == "prism") {
+    json.only_keys({"type", "vertices", "height"});
+    return Prism{read_points_2d(json.at("vertices")), json.at("height").positive()};
+  }
+  if (type == "convex") {
+    json.only_keys({"type", "vertices"});
+    return Convex{read_points_3d(json.at("vertices"))};
+  }
+  if (type == "faces") {
+    json.only_keys({"type", "vertices", "triangles"});
+    return read_faces(json);
+  }
+  if (type == "mesh") {
+    json.at("type").refuse_with("this version reads no \"mesh\" shapes; give the triangles as \"faces\"");
+  }
+  json.at("type").refuse("a 3D shape: sphere, box, prism, convex or faces");
+}
+
+void append_points(std::string& out, const std::vector<Vec2>& points) {
+  append_key(out, "vertices");
+  out += '[';
+  for (const Vec2& p : points) {
+    append_comma(out);
+    append_point(out, {p.x, p.y, 0.0}, 2);
+  }
+  out += ']';
+}
+
+void append_points(std::string& out, const std::vector<Vec3>& points) {
+  append_key(out, "vertices");
+  out += '[';
+  for (const Vec3& p : points) {
+    append_comma(out);
+    append_point(out, p, 3);
+  }
+  out += ']';
+}
+
+/// Writes the members behind "type".
+struct Members {
+  std::string& out;
+
+  void radius(double value) const {
+    append_key(out, "radius");
+    append_number(out, value);
+  }
+  void size(const Vec3& value, int dimension) const {
+    append_key(out, "size");
+    append_point(out, value, dimension);
+  }
+  void operator()(const Disc& s) const { radius(s.radius); }
+  void operator()(const Rectangle& s) const { size({s.size.x, s.size.y, 0.0}, 2); }
+  void operator()(const Polygon& s) const { append_points(out, s.vertices); }
+  void operator()(const Polyline& s) const { append_points(out, s.vertices); }
+  void operator()(const Sphere& s) const { radius(s.radius); }
+  void operator()(const Cuboid& s) const { size(s.size, 3); }
+  void operator()(const Prism& s) const {
+    append_points(out, s.vertices);
+    append_key(out, "height");
+    append_number(out, s.height);
+  }
+  void operator()(const Convex& s) const { append_points(out, s.vertices); }
+  void operator()(const Faces& s) const {
+    append_points(out, s.vertices);
+    append_key(out, "triangles");
+    out += '[';
+    for (const auto& triangle : s.triangles) {
+      append_comma(out);
+      out += '[';
+      for (const std::uint32_t corner : triangle) {
+        append_comma(out);
+        append_integer(out, corner);
+      }
+      out += ']';
+    }
+    out += ']';
+  }
+};
+
+}  // namespace
+
+Shape read_shape(const JsonRef& json, int dimension) {
+  const std::string_view type = json.at("type").string();
+  Shape shape = dimension == 2 ? read_2d(json, type) : read_3d(json, type);
+  try {
+    validate(shape);
+  } catch (const Error& fault) {
+    json.refuse_with(fault.what());
+  }
+  return shape;
+}
+
+void append_shape(std::string& out, const Shape& shape) {
+  out += '{';
+  append_key(out, "type");
+  append_string(out, name_of(shape));
+  std::visit(Members{out}, shape);
+  out += '}';
+}
+
+}  // namespace gridcull

@@ -1,0 +1,189 @@
+#include "gridcull/sim/world.h"
+
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+#include "gridcull/core/error.h"
+#include "gridcull/sim/json_text.h"
+#include "gridcull/sim/scene_json.h"
+
+namespace gridcull {
+namespace {
+
+/// The place in a list of a frame, for a refusal.
+std::string at(const Frame& frame, std::string_view list, std::size_t i, std::string_view key = "") {
+  const std::string front = frame.where.empty() ? "frame" : frame.where;
+  return front + ": /" + std::string(list) + "/" + std::to_string(i) + std::string(key) + ": ";
+}
+
+[[noreturn]] void refuse_unknown(const std::string& place, std::string_view what, std::uint32_t id) {
+  throw Error(ErrorCode::unknown_object,
+              place + "expected the id of " + std::string(what) + " that is there, found " + std::to_string(id));
+}
+
+[[noreturn]] void refuse(const std::string& place, const std::string& why) {
+  throw Error(ErrorCode::bad_frame, place + why);
+}
+
+[[noreturn]] void refuse_twice(const std::string& place, std::uint32_t id) {
+  refuse(place, "expected each id once, found " + std::to_string(id) + " twice");
+}
+
+}  // namespace
+
+/// What a frame does, found out before anything is changed.
+struct World::Plan {
+  std::unordered_set<ObjectId> removed{}, added{}, set{};
+  std::unordered_set<ViewerId> dropped{};
+  std::vector<SceneViewer> viewers{};  ///< after their updates
+};
+
+World::World(const Scene& scene) : dimension_(scene.dimension) {
+  for (const SceneObject& object : scene.objects) {
+    const ObjectId id = object.object.id;
+    if (dimension_of(object.object.shape) != dimension_) {
+      throw Error(ErrorCode::bad_scene, "object " + std::to_string(id) + ": its shape is not of the scene's dimension");
+    }
+    if (has(id)) throw Error(ErrorCode::bad_scene, "object " + std::to_string(id) + ": the id is there twice");
+    insert(object.object);
+  }
+  for (const SceneViewer& viewer : scene.viewers) {
+    const std::string name = "viewer " + std::to_string(viewer.id);
+    if (viewer.follows && !has(*viewer.follows)) {
+      throw Error(ErrorCode::bad_scene,
+                  name + ": follows object " + std::to_string(*viewer.follows) + ", which is not there");
+    }
+    if (!viewers_.emplace(viewer.id, viewer).second)
+      throw Error(ErrorCode::bad_scene, name + ": the id is there twice");
+  }
+}
+
+bool World::has_after(ObjectId id, const Plan& plan) const {
+  return plan.added.contains(id) || (has(id) && !plan.removed.contains(id));
+}
+
+void World::check_objects(const Frame& frame, Plan& plan) const {
+  for (std::size_t i = 0; i < frame.remove.size(); ++i) {
+    const ObjectId id = frame.remove[i];
+    if (!has(id)) refuse_unknown(at(frame, "remove", i), "an object", id);
+    if (!plan.removed.insert(id).second) refuse_twice(at(frame, "remove", i), id);
+  }
+  for (std::size_t i = 0; i < frame.add.size(); ++i) {
+    const Object& object = frame.add[i].object;
+    if (object.id == no_id) refuse(at(frame, "add", i, "/id"), "expected an id");
+    if (plan.added.contains(object.id)) refuse_twice(at(frame, "add", i, "/id"), object.id);
+    if (has_after(object.id, plan)) {
+      refuse(at(frame, "add", i, "/id"),
+             "expected a new id, found " + std::to_string(object.id) + ", which is there already");
+    }
+    if (dimension_of(object.shape) != dimension_) {
+      refuse(at(frame, "add", i, "/shape"), "expected a " + std::to_string(dimension_) + "D shape");
+    }
+    plan.added.insert(object.id);
+  }
+  for (std::size_t i = 0; i < frame.set.size(); ++i) {
+    const ObjectId id = frame.set[i].id;
+    if (!has_after(id, plan)) refuse_unknown(at(frame, "set", i, "/id"), "an object", id);
+    if (!plan.set.insert(id).second) refuse_twice(at(frame, "set", i, "/id"), id);
+  }
+}
+
+void World::check_viewers(const Frame& frame, Plan& plan) const {
+  for (std::size_t i = 0; i < frame.drop_viewers.size(); ++i) {
+    const ViewerId id = frame.drop_viewers[i];
+    if (!viewers_.contains(id)) refuse_unknown(at(frame, "drop_viewers", i), "a viewer", id);
+    if (!plan.dropped.insert(id).second) refuse_twice(at(frame, "drop_viewers", i), id);
+  }
+  std::unordered_set<ViewerId> named;
+  for (std::size_t i = 0; i < frame.viewers.size(); ++i) {
+    const ViewerUpdate& update = frame.viewers[i];
+    if (update.id == no_id) refuse(at(frame, "viewers", i, "/id"), "expected an id");
+    if (!named.insert(update.id).second) refuse_twice(at(frame, "viewers", i, "/id"), update.id);
+    const auto known = viewers_.find(update.id);
+    const bool is_new = known == viewers_.end() || plan.dropped.contains(update.id);
+    const SceneViewer* viewer = is_new ? nullptr : &known->second;
+    const std::string fault = fault_of(viewer, update);
+    if (!fault.empty()) refuse(at(frame, "viewers", i), fault);
+    const bool as_before = viewer && viewer->follows && viewer->follows == update.follows;
+    if (update.follows && !as_before && !has_after(*update.follows, plan)) {
+      refuse_unknown(at(frame, "viewers", i, "/follows"), "an object", *update.follows);
+    }
+    update_viewer(plan.viewers.emplace_back(viewer ? *viewer : SceneViewer{}), update);
+  }
+}
+
+void World::apply(const Frame& frame) {
+  if (time_ && !(frame.time > *time_)) {
+    std::string text = frame.where.empty() ? "frame" : frame.where;
+    append_number(text += ": /time: expected a time after ", *time_);
+    append_number(text += ", found ", frame.time);
+    throw Error(ErrorCode::bad_frame, text);
+  }
+  Plan plan;
+  check_objects(frame, plan);
+  check_viewers(frame, plan);
+
+  time_ = frame.time;
+  for (const ObjectId id : frame.remove) erase(id);
+  for (const SceneObject& object : frame.add) insert(object.object);
+  for (const ObjectMove& move : frame.set) {
+    Pose& pose = objects_[index_.at(move.id)].pose;
+    if (move.position) pose.position = *move.position;
+    if (move.orientation) pose.orientation = *move.orientation;
+  }
+  for (const ViewerId id : frame.drop_viewers) viewers_.erase(id);
+  for (SceneViewer& viewer : plan.viewers) viewers_.insert_or_assign(viewer.id, std::move(viewer));
+}
+
+void World::insert(const Object& object) {
+  index_.emplace(object.id, objects_.size());
+  objects_.push_back(object);
+}
+
+void World::erase(ObjectId id) {
+  const auto place = index_.find(id);
+  const std::size_t hole = place->second;
+  index_.erase(place);
+  if (hole + 1 != objects_.size()) {
+    objects_[hole] = std::move(objects_.back());
+    index_[objects_[hole].id] = hole;
+  }
+  objects_.pop_back();
+}
+
+const Object& World::object(ObjectId id) const {
+  const auto place = index_.find(id);
+  if (place == index_.end()) throw Error(ErrorCode::unknown_object, "object " + std::to_string(id) + " is not there");
+  return objects_[place->second];
+}
+
+void World::views(std::vector<View>& out) const {
+  out.clear();
+  for (const auto& [id, viewer] : viewers_) {
+    View view;
+    view.viewer = id;
+    view.pose = viewer.pose;
+    if (!viewer.own_direction) view.pose.orientation = Quat{};
+    if (viewer.follows) {
+      const auto place = index_.find(*viewer.follows);
+      if (place == index_.end()) continue;
+      const Pose& base = objects_[place->second].pose;
+      view.pose.position = to_world(base, rotation_of(base.orientation), viewer.pose.position);
+      if (!viewer.own_direction) view.pose.orientation = base.orientation;
+      view.rides = *viewer.follows;
+    }
+    view.range = viewer.range;
+    view.fov = viewer.fov;
+    view.frustum = viewer.frustum;
+    out.push_back(view);
+  }
+}
+
+std::vector<View> World::views() const {
+  std::vector<View> out;
+  views(out);
+  return out;
+}
+
+}  // namespace gridcull
