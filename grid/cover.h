@@ -13,16 +13,10 @@
 #include <vector>
 
 #include "gridcull/core/object.h"
+#include "gridcull/grid/cover_scratch.h"
 #include "gridcull/grid/lattice.h"
 
 namespace gridcull {
-
-/// The cells of one brick (64 cells, see Lattice). opaque is a subset of touched.
-struct BrickCover {
-  std::uint32_t brick;
-  std::uint64_t touched;
-  std::uint64_t opaque;
-};
 
 /// What an object covers. Bricks ascend and none is empty.
 struct Cover {
@@ -34,9 +28,6 @@ struct Cover {
     outside = false;
   }
 };
-
-/// Computes covers of one shape. Reusable scratch lives in `CoverScratch`, one per thread.
-class CoverScratch;
 
 /// A shape with what discretising it needs computed once (hull sides, merged outlines).
 class PreparedShape {

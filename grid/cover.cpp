@@ -1,0 +1,198 @@
+// Discretisation of every shape: chooses the kernel (see cover_kernels.h) and sets it up.
+#include "gridcull/grid/cover.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <glm/common.hpp>
+
+#include "gridcull/core/hull.h"
+#include "gridcull/grid/cover_frame.h"
+#include "gridcull/grid/cover_kernels.h"
+
+namespace gridcull {
+namespace {
+
+using namespace covering;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Directions shorter than this (metres, or square metres) say nothing: their products may underflow.
+constexpr double least_length = 1e-150;
+
+/// Slabs perpendicular to an edge and to one of the cell's edges: the cross products of the
+/// separating-axis test, with the support of the given points.
+void add_edge_slabs(ConvexBody& body, const Vec3& edge, std::span<const Vec3> points) {
+  if (!(std::abs(edge.x) + std::abs(edge.y) + std::abs(edge.z) > least_length)) return;
+  const auto add = [&](std::vector<ConvexSlab>& slabs, const Vec3& a) {
+    ConvexSlab s{a, infinite, -infinite, 0.0, 0.0};
+    for (const Vec3& p : points) {
+      const double along = glm::dot(a, p - body.reference);
+      s.low = std::min(s.low, along);
+      s.high = std::max(s.high, along);
+    }
+    slabs.push_back(s);
+  };
+  add(body.xy, {-edge.y, edge.x, 0.0});
+  add(body.xz, {edge.z, 0.0, -edge.x});
+  add(body.yz, {0.0, -edge.z, edge.y});
+}
+
+/// Merges the covers of several bodies.
+void merge_bricks(std::vector<BrickCover>& bricks) {
+  std::sort(bricks.begin(), bricks.end(), [](const BrickCover& a, const BrickCover& b) { return a.brick < b.brick; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    if (kept > 0 && bricks[kept - 1].brick == bricks[i].brick) {
+      bricks[kept - 1].touched |= bricks[i].touched;
+    } else {
+      bricks[kept++] = bricks[i];
+    }
+  }
+  bricks.resize(kept);
+}
+
+}  // namespace
+
+struct PreparedShape::Detail {
+  explicit Detail(const Shape& s) : shape(s), reach(reach_of(s)) {
+    if (const auto* p = std::get_if<Polygon>(&shape)) outline = merged_outline(p->vertices);
+    if (const auto* p = std::get_if<Prism>(&shape)) outline = merged_outline(p->vertices);
+    if (const auto* p = std::get_if<Polyline>(&shape)) outline = p->vertices;
+    if (const auto* p = std::get_if<Convex>(&shape)) prepare(*p);
+  }
+
+  Shape shape;
+  double reach;
+  std::vector<Vec2> outline;      ///< local
+  std::vector<ConvexSlab> sides;  ///< Convex: local, reference 0
+  std::vector<Vec3> edges;        ///< Convex: local directions
+
+  void prepare(const Convex& s);
+  void place(const Vec3* local, std::size_t count, const Pose& pose, ConvexBody& body, std::vector<Vec3>& world) const;
+
+  void cover(const Disc& s, const Lattice& lattice, const Pose& pose, CoverScratch&, Cover& out) const {
+    ball(lattice, pose.position, s.radius, true, out);
+  }
+  void cover(const Sphere& s, const Lattice& lattice, const Pose& pose, CoverScratch&, Cover& out) const {
+    ball(lattice, pose.position, s.radius, true, out);
+  }
+  void cover(const Rectangle& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
+    set_box(scratch.body, pose, {0.5 * s.size.x, 0.5 * s.size.y, 0.0}, true);
+    convex(lattice, scratch.body, lattice.margin(magnitude_of(scratch.body.bounds)), out);
+  }
+  void cover(const Cuboid& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
+    set_box(scratch.body, pose, 0.5 * s.size, false);
+    convex(lattice, scratch.body, lattice.margin(magnitude_of(scratch.body.bounds)), out);
+  }
+  void cover(const Polygon&, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
+    cover_plane(lattice, pose, true, scratch, out);
+  }
+  void cover(const Polyline&, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
+    cover_plane(lattice, pose, false, scratch, out);
+  }
+  void cover(const Prism& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
+    prism(lattice, outline, s.height, pose, scratch, out);
+  }
+  void cover(const Convex& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const;
+  void cover(const Faces& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const;
+
+  void cover_plane(const Lattice& lattice, const Pose& pose, bool closed, CoverScratch& scratch, Cover& out) const {
+    const Rotation r = rotation_of(pose.orientation);
+    scratch.outline.clear();
+    double magnitude = 0.0;
+    for (const Vec2& p : outline) {
+      const Vec2 world(to_world(pose, r, {p.x, p.y, 0.0}));
+      scratch.outline.push_back(world);
+      magnitude = std::max({magnitude, std::abs(world.x), std::abs(world.y)});
+    }
+    covering::outline(lattice, scratch.outline, closed, lattice.margin(magnitude), scratch, out.bricks, out.outside);
+  }
+};
+
+void PreparedShape::Detail::prepare(const Convex& s) {
+  const Hull hull = convex_hull(s.vertices);
+  for (const auto& t : hull.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      if (from < to) edges.push_back(s.vertices[to] - s.vertices[from]);
+    }
+  }
+  for (const HalfSpace& side : hull.sides) {
+    ConvexSlab slab{side.normal, infinite, -infinite, side.offset + hull.margin, infinite};
+    for (const Vec3& p : s.vertices) {
+      slab.low = std::min(slab.low, glm::dot(side.normal, p));
+      slab.high = std::max(slab.high, glm::dot(side.normal, p));
+    }
+    sides.push_back(slab);
+  }
+}
+
+/// World points of a body, its bounds and its reference.
+void PreparedShape::Detail::place(const Vec3* local, std::size_t count, const Pose& pose, ConvexBody& body,
+                                  std::vector<Vec3>& world) const {
+  const Rotation r = rotation_of(pose.orientation);
+  body.clear();
+  body.bounds = {};
+  body.reference = pose.position;
+  world.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    world.push_back(to_world(pose, r, local[i]));
+    body.bounds.add(world.back());
+  }
+}
+
+void PreparedShape::Detail::cover(const Convex& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch,
+                                  Cover& out) const {
+  ConvexBody& body = scratch.body;
+  place(s.vertices.data(), s.vertices.size(), pose, body, scratch.vertices);
+  const Rotation r = rotation_of(pose.orientation);
+  for (ConvexSlab side : sides) {
+    side.direction = r * side.direction;
+    body.full.push_back(side);
+  }
+  body.has_inside = true;
+  for (const Vec3& e : edges) add_edge_slabs(body, r * e, scratch.vertices);
+  convex(lattice, body, lattice.margin(magnitude_of(body.bounds)), out);
+}
+
+void PreparedShape::Detail::cover(const Faces& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch,
+                                  Cover& out) const {
+  ConvexBody& body = scratch.body;
+  place(s.vertices.data(), s.vertices.size(), pose, body, scratch.vertices);
+  const double margin = lattice.margin(magnitude_of(body.bounds));
+  for (const auto& t : s.triangles) {
+    const std::array<Vec3, 3> p{scratch.vertices[t[0]], scratch.vertices[t[1]], scratch.vertices[t[2]]};
+    body.clear();
+    body.bounds = {};
+    for (const Vec3& v : p) body.bounds.add(v);
+    body.reference = p[0];
+    const Vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+    const double b = glm::dot(normal, p[1] - p[0]), c = glm::dot(normal, p[2] - p[0]);
+    if (glm::dot(glm::abs(normal), Vec3(1.0)) > least_length) {
+      body.full.push_back({normal, std::min({0.0, b, c}), std::max({0.0, b, c}), 0.0, 0.0});
+    }
+    for (int k = 0; k < 3; ++k) {
+      add_edge_slabs(body, p[static_cast<std::size_t>((k + 1) % 3)] - p[static_cast<std::size_t>(k)], p);
+    }
+    convex(lattice, body, margin, out);
+  }
+  if (s.triangles.size() > 1) merge_bricks(out.bricks);
+}
+
+PreparedShape::PreparedShape(const Shape& shape) : detail_(std::make_unique<Detail>(shape)) {}
+PreparedShape::~PreparedShape() = default;
+PreparedShape::PreparedShape(PreparedShape&&) noexcept = default;
+PreparedShape& PreparedShape::operator=(PreparedShape&&) noexcept = default;
+
+const Shape& PreparedShape::shape() const { return detail_->shape; }
+double PreparedShape::reach() const { return detail_->reach; }
+
+void PreparedShape::cover(const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
+  out.clear();
+  std::visit([&](const auto& s) { detail_->cover(s, lattice, pose, scratch, out); }, detail_->shape);
+}
+
+}  // namespace gridcull
