@@ -65,9 +65,10 @@ class JsonTree::Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& fault) override {
     std::string line = fault.what();
     if (line.starts_with('[')) line.erase(0, line.find("] ") + 2);
-    constexpr int overflow = 406;
+    constexpr int overflow = 406;  // "number overflow parsing '1e999'"
     if (fault.id == overflow) {
-      throw Error(tree_.code_, tree_.source_ + ": " + place() + ": expected a finite number: " + line);
+      const std::string digits = line.substr(std::min(line.find('\''), line.size()));
+      throw Error(tree_.code_, tree_.source_ + ": " + place() + ": expected a finite number, found " + digits);
     }
     throw Error(ErrorCode::bad_message, tree_.source_ + ": expected JSON: " + line);
   }
