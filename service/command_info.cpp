@@ -1,0 +1,133 @@
+// `gridcull info`: what is in a scene and what the grid makes of it.
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "gridcull/grid/cover.h"
+#include "gridcull/grid/cover_scratch.h"
+#include "gridcull/grid/engine.h"
+#include "gridcull/service/commands.h"
+#include "gridcull/service/interrupt.h"
+#include "gridcull/service/table.h"
+#include "gridcull/service/text.h"
+#include "gridcull/service/world_options.h"
+
+namespace gridcull {
+namespace {
+
+constexpr std::size_t listed = 12;  // names printed of a longer list
+
+std::string contents(const std::vector<Object>& objects) {
+  std::map<std::string, std::pair<std::size_t, std::size_t>> shapes;  // static, moving
+  std::size_t occluders = 0;
+  for (const Object& object : objects) {
+    auto& counts = shapes[std::string(name_of(object.shape))];
+    ++(object.is_static ? counts.first : counts.second);
+    if (object.occluder) ++occluders;
+  }
+  std::string text = row("objects", std::to_string(objects.size()) + ", " + counted(occluders, "occluder"));
+  for (const auto& [name, counts] : shapes) {
+    text += row("  " + name, std::to_string(counts.first) + " static, " + std::to_string(counts.second) + " moving");
+  }
+  return text;
+}
+
+std::string frames_text(const WorldOptions& options, const Survey& survey) {
+  if (options.frames.empty()) return "no file: one at time 0";
+  if (options.frames == "-") return "standard input: not looked at";
+  return std::to_string(survey.frames) + ", time " + number_text(survey.first_time) + " .. " +
+         number_text(survey.last_time) + " s, " + counted(survey.moves, "move") + ", " +
+         counted(survey.removals, "removal");
+}
+
+/// Occluders that fuse nothing: they hide through no cell of this grid.
+std::string cell_less(const PreparedWorld& world) {
+  std::map<ObjectId, std::string> names;
+  for (const SceneObject& object : world.scene.objects) names[object.object.id] = object.name;
+  CoverScratch scratch;
+  Cover cover;
+  std::size_t without = 0;
+  std::string list;
+  for (const Object& object : world.survey->objects) {
+    if (!object.occluder) continue;
+    stop_if_interrupted();
+    PreparedShape(object.shape).cover(world.lattice, object.pose, scratch, cover);
+    bool holds = false;
+    for (const BrickCover& brick : cover.bricks) holds = holds || brick.opaque != 0;
+    if (holds) continue;
+    if (++without > listed) continue;
+    list += (list.empty() ? ": " : ", ") + std::to_string(object.id);
+    if (const auto found = names.find(object.id); found != names.end() && !found->second.empty()) {
+      list += " (" + found->second + ")";
+    }
+  }
+  if (without > listed) list += ", ...";
+  return counted(without, "occluder") + (without == 1 ? " holds" : " hold") + " no whole cell" + list;
+}
+
+std::string memory_text(const GridEngine& engine, std::size_t objects) {
+  const MemoryUse use = engine.memory();
+  const auto cells = static_cast<double>(engine.lattice().cell_count());
+  std::string text = row("memory", bytes_text(static_cast<double>(use.total())) + " after frame 0");
+  text += row("  matrices", bytes_text(static_cast<double>(use.matrices)) + ", " +
+                                number_text(static_cast<double>(use.matrices) / cells, 3) + " bytes a cell");
+  text += row("  viewers", bytes_text(static_cast<double>(use.viewers)));
+  text += row("  entries", bytes_text(static_cast<double>(use.entries)));
+  text +=
+      row("  objects",
+          bytes_text(static_cast<double>(use.objects)) +
+              (objects == 0 ? ""
+                            : ", " + number_text(static_cast<double>(use.objects) / static_cast<double>(objects), 3) +
+                                  " bytes an object"));
+  return text;
+}
+
+/// The engine's memory once the first frame is answered.
+std::string first_frame(const WorldOptions& options, const PreparedWorld& world) {
+  GridOptions grid;
+  grid.dimension = world.scene.dimension;
+  grid.bounds = world.choice.bounds;
+  grid.cell = world.choice.cell;
+  grid.max_memory = options.max_memory;
+  GridEngine engine(grid);
+  const auto frames = open_frames(options, world);
+  Replay replay(engine, world.scene, frames.get());
+  replay.step();
+  return memory_text(engine, replay.world().objects().size());
+}
+
+int info(const WorldOptions& options) {
+  const PreparedWorld world = prepare_world(options, true);
+  const int dimension = world.scene.dimension;
+  std::string text = row("scene", options.scene + ", " + std::to_string(dimension) + "D");
+  text += row("frames", frames_text(options, *world.survey));
+  text += row("viewers", std::to_string(world.scene.viewers.size()) + " in the scene");
+  text += contents(world.survey->objects);
+  text += row("extent", bounds_text(world.survey->extent, dimension));
+  text += row("bounds", bounds_text(world.choice.bounds, dimension) + ": " + world.choice.bounds_reason);
+  text += row("cell", number_text(world.choice.cell) + " m: " + world.choice.cell_reason);
+  text += row("grid", lattice_text(world.lattice) + ", " + std::to_string(world.lattice.cell_count()) + " in all");
+  text += row("cell-less", cell_less(world));
+  text += first_frame(options, world);
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<WorldOptions>();
+  CLI::App& command = *app.add_subcommand("info", "What is in a scene, the grid it gets and why, and its memory");
+  add_scene_options(command, *options);
+  command.footer(
+      "Example:\n"
+      "  gridcull make town --out town\n"
+      "  gridcull info town/scene.json --frames town/frames.jsonl");
+  command.callback([options, &action] { action = [options] { return info(*options); }; });
+}
+
+}  // namespace gridcull

@@ -1,0 +1,102 @@
+// `gridcull run`: replays a world and writes or sums up the answers.
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "gridcull/core/error.h"
+#include "gridcull/service/commands.h"
+#include "gridcull/service/interrupt.h"
+#include "gridcull/service/picture_request.h"
+#include "gridcull/service/progress.h"
+#include "gridcull/service/run_report.h"
+#include "gridcull/service/world_options.h"
+#include "gridcull/sim/pvs.h"
+#include "gridcull/sim/stats.h"
+
+namespace gridcull {
+namespace {
+
+struct RunOptions {
+  WorldOptions world{};
+  std::string out{};
+  std::string stats{};
+  std::vector<std::string> pictures{};
+};
+
+Stats complete(Stats stats, const WorldOptions& options, const PreparedWorld& world) {
+  const Cell cells = world.lattice.cells();
+  stats.method = options.method;
+  stats.threads = options.threads;
+  stats.cell = world.lattice.cell();
+  stats.cells = {cells.x, cells.y};
+  if (world.scene.dimension == 3) stats.cells.push_back(cells.z);
+  stats.peak_memory_bytes = peak_memory_bytes();
+  return stats;
+}
+
+int run(const RunOptions& options) {
+  if (options.out == "-" && options.stats == "-") {
+    throw Error(ErrorCode::usage, "--stats -: standard output is the answers' already");
+  }
+  const PreparedWorld world = prepare_world(options.world);
+  const auto culler = make_culler(options.world, world);
+  // Outputs are opened before the work: one that cannot be written is refused at once.
+  std::optional<PvsWriter> out;
+  if (!options.out.empty()) out.emplace(options.out, options.world.method, options.world.scene);
+  Pictures pictures(options.pictures, options.world.scene);
+  std::optional<TextWriter> stats_file;
+  if (!options.stats.empty()) stats_file.emplace(options.stats);
+
+  const auto start = std::chrono::steady_clock::now();
+  const auto frames = open_frames(options.world, world);
+  Replay replay(*culler, world.scene, frames.get(), feed_of(options.world));
+  StatsCollector collector;
+  {
+    Progress progress("frames", expected_frames(options.world, world));
+    while (pictures.step(replay, *culler, world.lattice)) {
+      collector.add(replay.answers());
+      if (out) out->write(replay.frame(), replay.time(), replay.answers());
+      progress.update(replay.next_frame());
+      stop_if_interrupted();
+    }
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  pictures.check();
+  const Stats stats = complete(collector.stats(), options.world, world);
+  if (stats_file) stats_file->write(stats_text(stats));
+  if (out) out->commit();
+  if (stats_file) stats_file->commit();
+  pictures.commit();
+  if (!out && options.stats != "-") {
+    std::fputs(run_table(options.world, world, culler->info(), stats, seconds).c_str(), stdout);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App& command = *app.add_subcommand("run", "Replay a world: who may be seen by whom, frame by frame");
+  add_scene_options(command, options->world);
+  add_method_options(command, options->world);
+  command.add_option("--out", options->out,
+                     "write the answers (.jsonl, .jsonl.gz, or -); without it a short table is printed");
+  command.add_option("--stats", options->stats, "write times and counts as JSON");
+  command
+      .add_option("--picture", options->pictures, "draw the grid as one viewer met it in one frame; may be repeated")
+      ->type_name("FRAME:VIEWER:FILE.svg")
+      ->allow_extra_args(false);
+  command.footer(
+      "Example: a town, replayed, with a picture of what viewer 1 sees in frame 50\n"
+      "  gridcull make town --out town --viewers 10 --range 100\n"
+      "  gridcull run town/scene.json --frames town/frames.jsonl --out pvs.jsonl --picture 50:1:view.svg");
+  command.callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace gridcull

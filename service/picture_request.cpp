@@ -1,0 +1,113 @@
+#include "gridcull/service/picture_request.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "gridcull/core/error.h"
+#include "gridcull/grid/engine.h"
+#include "gridcull/service/svg_picture.h"
+#include "gridcull/service/text.h"
+
+namespace gridcull {
+namespace {
+
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number value{};
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string title_of(const Culler& culler, const PictureRequest& request) {
+  return "Whom viewer " + std::to_string(request.viewer) + " may see in frame " + std::to_string(request.frame) +
+         " (method " + std::string(culler.info().name) + ")";
+}
+
+std::string subtitle_of(const std::string& label, const Replay& replay, const Answer& answer, const Lattice& lattice) {
+  std::string text =
+      label + ", t = " + number_text(replay.time()) + " s: " + counted(answer.visible.size(), "object") + " reported";
+  if (answer.in_view > 0) text += " of " + std::to_string(answer.in_view) + " in the view volume";
+  text += "; cells of " + number_text(lattice.cell()) + " m";
+  if (lattice.dimension() == 3) text += "; slice through the viewer's height";
+  return text;
+}
+
+}  // namespace
+
+PictureRequest parse_picture_request(const std::string& text) {
+  const auto first = text.find(':');
+  const auto second = first == std::string::npos ? first : text.find(':', first + 1);
+  if (second != std::string::npos && second + 1 < text.size()) {
+    const auto frame = parse_number<std::uint64_t>(std::string_view(text).substr(0, first));
+    const auto viewer = parse_number<ViewerId>(std::string_view(text).substr(first + 1, second - first - 1));
+    if (frame && viewer && *viewer != no_id) return {*frame, *viewer, text.substr(second + 1)};
+  }
+  throw option_error("--picture", "FRAME:VIEWER:FILE.svg, as in 100:7:view.svg", "\"" + text + "\"");
+}
+
+Pictures::Pictures(const std::vector<std::string>& requests, std::string label) : label_(std::move(label)) {
+  for (const std::string& text : requests) {
+    PictureRequest request = parse_picture_request(text);
+    for (const Item& other : items_) {
+      if (other.request.file == request.file)
+        throw Error(ErrorCode::usage, "--picture: " + request.file + " is named twice");
+      if (other.request.frame == request.frame) {
+        throw Error(ErrorCode::usage, "--picture: one picture a frame can be drawn, and frame " +
+                                          std::to_string(request.frame) + " is asked for twice");
+      }
+    }
+    TextWriter writer(request.file);
+    items_.push_back({std::move(request), std::move(writer)});
+  }
+}
+
+bool Pictures::step(Replay& replay, Culler& culler, const Lattice& lattice) {
+  const std::uint64_t frame = replay.next_frame();
+  const auto item = std::find_if(items_.begin(), items_.end(), [&](const Item& i) { return i.request.frame == frame; });
+  auto* engine = item == items_.end() ? nullptr : dynamic_cast<GridEngine*>(&culler);
+  PictureSink sink(lattice);
+  if (engine) engine->draw_next(item->request.viewer, &sink);
+  if (!replay.step()) return false;
+  frames_ = frame + 1;
+  if (item != items_.end()) draw(*item, replay, culler, lattice, engine ? &sink : nullptr);
+  return true;
+}
+
+void Pictures::draw(Item& item, const Replay& replay, const Culler& culler, const Lattice& lattice,
+                    const PictureSink* sink) {
+  const auto& answers = replay.answers().views;
+  const auto answer =
+      std::find_if(answers.begin(), answers.end(), [&](const Answer& a) { return a.viewer == item.request.viewer; });
+  const auto view = std::find_if(replay.views().begin(), replay.views().end(),
+                                 [&](const View& v) { return v.viewer == item.request.viewer; });
+  if (answer == answers.end() || view == replay.views().end()) return;
+  Picture picture{.lattice = lattice,
+                  .objects = replay.world().objects(),
+                  .view = *view,
+                  .visible = answer->visible,
+                  .title = title_of(culler, item.request),
+                  .subtitle = subtitle_of(label_, replay, *answer, lattice)};
+  item.writer.write(svg_picture(picture, sink));
+  item.drawn = true;
+}
+
+void Pictures::check() const {
+  for (const Item& item : items_) {
+    if (item.drawn) continue;
+    const PictureRequest& request = item.request;
+    const std::string what = "--picture " + std::to_string(request.frame) + ":" + std::to_string(request.viewer);
+    if (request.frame >= frames_) {
+      throw Error(ErrorCode::usage, what + ": there are only " + counted(frames_, "frame") + ", counted from 0");
+    }
+    throw Error(ErrorCode::usage, what + ": viewer " + std::to_string(request.viewer) + " is not there in that frame");
+  }
+}
+
+void Pictures::commit() {
+  for (Item& item : items_) item.writer.commit();
+}
+
+}  // namespace gridcull

@@ -1,0 +1,79 @@
+#include "gridcull/service/program.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "gridcull/core/error.h"
+#include "gridcull/service/commands.h"
+#include "gridcull/service/interrupt.h"
+
+namespace gridcull {
+namespace {
+
+constexpr int bad_input = 2;
+
+/// One line, whatever the message holds.
+int refuse(std::string message) {
+  for (char& c : message) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  while (!message.empty() && message.back() == ' ') message.pop_back();
+  std::fprintf(stderr, "gridcull: %s\n", message.c_str());
+  return bad_input;
+}
+
+int stopped() {
+  std::fprintf(stderr, "gridcull: stopped; unfinished outputs were not written\n");
+  return interrupt_status();
+}
+
+int perform(const Action& action) {
+  try {
+    catch_interrupts();
+    const int status = action();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      return refuse(std::string("standard output: cannot be written: ") + std::strerror(errno));
+    }
+    return status;
+  } catch (const Stopped&) {
+    return stopped();
+  } catch (const std::bad_alloc&) {
+    return refuse("out of memory");
+  } catch (const std::exception& e) {
+    // A read that a signal broke off says that it failed; what happened is the signal.
+    return interrupted() ? stopped() : refuse(e.what());
+  }
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  CLI::App app("Who can see whom, in a world where everything moves.", "gridcull");
+  app.set_version_flag("--version", std::string("gridcull ") + GRIDCULL_VERSION);
+  app.require_subcommand(0, 1);
+  app.footer("gridcull COMMAND --help says more, with an example.");
+  Action action;
+  add_run_command(app, action);
+  add_check_command(app, action);
+  add_info_command(app, action);
+  add_make_command(app, action);
+  add_import_command(app, action);
+  add_methods_command(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return e.get_exit_code() == 0 ? app.exit(e) : refuse(e.what());
+  } catch (const std::exception& e) {
+    return refuse(e.what());
+  }
+  if (!action) return refuse("a command is missing: run, check, info, make, import or methods (see gridcull --help)");
+  return perform(action);
+}
+
+}  // namespace gridcull
