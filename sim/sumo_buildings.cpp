@@ -1,0 +1,96 @@
+#include "gridcull/sim/sumo_buildings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <pugixml.hpp>
+
+#include "gridcull/core/bounds.h"
+#include "gridcull/core/error.h"
+#include "gridcull/sim/import_parts.h"
+#include "gridcull/sim/text_file.h"
+
+namespace gridcull {
+namespace {
+
+[[noreturn]] void refuse(const std::string& place, const std::string& why) {
+  throw Error(ErrorCode::bad_message, place + why);
+}
+
+/// "x,y x,y ..." (a third coordinate is passed over).
+std::vector<Vec2> parse_outline(std::string_view text, const std::string& place) {
+  std::vector<Vec2> out;
+  constexpr std::string_view spaces = " \t\r\n";
+  while (true) {
+    const std::size_t begin = text.find_first_not_of(spaces);
+    if (begin == std::string_view::npos) return out;
+    text.remove_prefix(begin);
+    const std::string_view point = text.substr(0, text.find_first_of(spaces));
+    text.remove_prefix(point.size());
+    const std::size_t comma = point.find(',');
+    const std::string_view rest = comma == std::string_view::npos ? "" : point.substr(comma + 1);
+    const auto x = parse_number(point.substr(0, comma));
+    const auto y = parse_number(rest.substr(0, rest.find(',')));
+    if (!x || !y) refuse(place, "expected a point x,y of magnitude at most 1e9, found " + quoted(point));
+    out.emplace_back(*x, *y);
+  }
+}
+
+std::size_t distinct_points(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(), [](auto& a, auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  return static_cast<std::size_t>(std::unique(points.begin(), points.end()) - points.begin());
+}
+
+/// Vertices about a position of whole metres in the middle: near the origin's size the differences, and the
+/// sums that give them back, are then exact, so shared walls stay shared.
+SceneObject building(std::vector<Vec2> outline, const Bounds& around) {
+  SceneObject out;
+  const Vec3 middle = around.centre();
+  out.object.pose.position = {std::floor(middle.x), std::floor(middle.y), 0.0};
+  for (Vec2& p : outline) p -= Vec2(out.object.pose.position);
+  out.object.shape = Polygon{std::move(outline)};
+  out.object.is_static = true;
+  return out;
+}
+
+}  // namespace
+
+std::vector<SceneObject> read_sumo_buildings(const std::string& path, const std::optional<std::array<double, 4>>& box,
+                                             std::vector<std::string>& notes) {
+  const std::string text = read_text(path);
+  const auto place = [&](std::ptrdiff_t offset) {
+    const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
+    return path + ":" + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": ";
+  };
+  pugi::xml_document document;
+  const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
+  if (!parsed) refuse(place(parsed.offset), std::string("expected XML: ") + parsed.description());
+  const pugi::xml_node root = document.document_element();
+  const std::string_view name = root.name();
+  if (name != "additional" && name != "shapes") {
+    refuse(place(root.offset_debug()), "expected the element <additional>, found <" + std::string(name) + ">");
+  }
+  std::vector<SceneObject> out;
+  for (const pugi::xml_node& node : root.children("poly")) {
+    if (!std::string_view(node.attribute("type").value()).starts_with("building")) continue;
+    const std::string where = place(node.offset_debug()) + "polygon " + quoted(node.attribute("id").value()) + ": ";
+    if (node.attribute("geo").as_bool()) refuse(where, "expected coordinates in metres, found geo coordinates");
+    const std::vector<Vec2> outline = merged_outline(parse_outline(node.attribute("shape").value(), where));
+    const std::size_t points = distinct_points(outline);
+    if (points < 3) {
+      notes.push_back(where + std::to_string(points) + " distinct points, at least 3 are needed: skipped");
+      continue;
+    }
+    Bounds around;
+    for (const Vec2& p : outline) around.add({p.x, p.y, 0.0});
+    const bool meets = !box || (around.min.x <= (*box)[2] && around.max.x >= (*box)[0] && around.min.y <= (*box)[3] &&
+                                around.max.y >= (*box)[1]);
+    if (!meets) continue;
+    out.push_back(building(outline, around));
+    out.back().object.id = static_cast<ObjectId>(out.size() - 1);
+    out.back().name = node.attribute("id").value();
+  }
+  return out;
+}
+
+}  // namespace gridcull
