@@ -144,14 +144,16 @@ void add_extent(const Object& object, Bounds& bounds) {
 }
 
 LatticeChoice choose_lattice(int dimension, std::span<const Object> objects, std::optional<Bounds> bounds,
-                             std::optional<double> cell) {
+                             std::optional<double> cell, const Bounds& ways) {
   LatticeChoice choice{};
   if (bounds) {
     choice.bounds = *bounds;
     choice.bounds_reason = "as asked";
   } else {
+    choice.bounds = ways;
     for (const Object& object : objects) add_extent(object, choice.bounds);
-    choice.bounds_reason = "the box of all objects, rounded outward to whole cells";
+    choice.bounds_reason = ways.empty() ? "the box of all objects, rounded outward to whole cells"
+                                        : "the box of all objects and their ways, rounded outward to whole cells";
   }
   const bool empty = choice.bounds.empty();
   if (empty) {

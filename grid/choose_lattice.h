@@ -18,8 +18,8 @@ struct LatticeChoice {
   std::string cell_reason;    ///< one clause: where the cell size comes from
 };
 
-/// `bounds` and `cell` as asked where given, else derived from the objects' extents (their whole way is
-/// not known here: pass what frames will add too) and sizes. An empty world gets one cell.
+/// `bounds` and `cell` as asked where given, else derived from the objects' extents and sizes. `ways`: where
+/// they will go besides, for those who know. An empty world gets one cell.
 ///
 /// The rule for the cell: a quarter of the median smaller dimension of the occluders that have an interior
 /// (a disc's diameter, a box's or a local bounding box's smallest side), so that a typical occluder holds
@@ -29,7 +29,7 @@ struct LatticeChoice {
 /// The rule for the bounds: the box of all objects, rounded outward to whole cells. Objects and viewers may
 /// leave it; they are answered correctly there, only not hidden by the grid.
 LatticeChoice choose_lattice(int dimension, std::span<const Object> objects, std::optional<Bounds> bounds,
-                             std::optional<double> cell);
+                             std::optional<double> cell, const Bounds& ways = {});
 
 /// Cells that a derived cell size leads to, at most.
 inline constexpr double most_cells = 4e6;

@@ -14,6 +14,7 @@
 
 #include "gridcull/grid/cover_frame.h"
 #include "gridcull/grid/cover_kernels.h"
+#include "gridcull/grid/cover_words.h"
 
 namespace gridcull::covering {
 namespace {
@@ -130,16 +131,6 @@ struct Rows {
   }
 };
 
-/// Sets the bits of one row (at bit `shift` of each word) in a row of bricks starting at brick `first`.
-template <int edge, std::uint64_t BrickCover::*set>
-void fill(BrickCover* bricks, std::int64_t first, int shift, const Range& cells) {
-  for (std::int64_t b = cells.first / edge; b * edge <= cells.last; ++b) {
-    const auto low = static_cast<int>(std::max<std::int64_t>(cells.first - b * edge, 0));
-    const auto high = static_cast<int>(std::min<std::int64_t>(cells.last - b * edge, edge - 1));
-    bricks[b - first].*set |= ((std::uint64_t{2} << high) - (std::uint64_t{1} << low)) << shift;
-  }
-}
-
 /// Appends the bricks that 64 / edge rows touch; `base` is the index of the brick at x = 0.
 template <int edge>
 void emit(const std::array<Row, 64 / edge>& rows, std::size_t base, std::vector<BrickCover>& out) {
@@ -151,15 +142,11 @@ void emit(const std::array<Row, 64 / edge>& rows, std::size_t base, std::vector<
   if (cells.empty()) return;
   const std::size_t from = out.size();
   const std::int64_t first = cells.first / edge, last = cells.last / edge;
-  out.resize(from + static_cast<std::size_t>(last - first + 1), BrickCover{0, 0, 0});
-  BrickCover* bricks = out.data() + from;
-  for (std::int64_t b = first; b <= last; ++b) {
-    bricks[b - first].brick = static_cast<std::uint32_t>(base + static_cast<std::size_t>(b));
-  }
+  BrickCover* bricks = append_bricks(out, base, first, last);
   for (int j = 0; j < 64 / edge; ++j) {
     const Row& r = rows[static_cast<std::size_t>(j)];
-    if (!r.touched.empty()) fill<edge, &BrickCover::touched>(bricks, first, edge * j, r.touched);
-    if (!r.opaque.empty()) fill<edge, &BrickCover::opaque>(bricks, first, edge * j, r.opaque);
+    if (!r.touched.empty()) fill_run<edge, &BrickCover::touched>(bricks, first, edge * j, r.touched);
+    if (!r.opaque.empty()) fill_run<edge, &BrickCover::opaque>(bricks, first, edge * j, r.opaque);
   }
   drop_empty(out, from);
 }
@@ -224,14 +211,6 @@ void solid_body(const Lattice& lattice, const Rows& rows, const Range& y, const 
 }
 
 }  // namespace
-
-void drop_empty(std::vector<BrickCover>& bricks, std::size_t from) {
-  std::size_t kept = from;
-  for (std::size_t i = from; i < bricks.size(); ++i) {
-    if (bricks[i].touched != 0) bricks[kept++] = bricks[i];
-  }
-  bricks.resize(kept);
-}
 
 double magnitude_of(const Bounds& bounds) {
   double m = 0.0;

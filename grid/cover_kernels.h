@@ -29,9 +29,6 @@ void outline(const Lattice& lattice, std::span<const Vec2> points, bool closed, 
 void prism(const Lattice& lattice, std::span<const Vec2> local, double height, const Pose& pose, CoverScratch& scratch,
            Cover& out);
 
-/// Removes empty bricks from position `from` on.
-void drop_empty(std::vector<BrickCover>& bricks, std::size_t from);
-
 /// Greatest |coordinate| of a box; 0 when empty.
 double magnitude_of(const Bounds& bounds);
 

@@ -12,6 +12,7 @@
 
 #include "gridcull/grid/cover_frame.h"
 #include "gridcull/grid/cover_kernels.h"
+#include "gridcull/grid/cover_words.h"
 
 namespace gridcull::covering {
 namespace {
@@ -114,8 +115,7 @@ class Band {
     for (std::int64_t b = first; b <= last; ++b) {
       const auto low = static_cast<int>(std::max<std::int64_t>(cells.first - b * edge, 0));
       const auto high = static_cast<int>(std::min<std::int64_t>(cells.last - b * edge, edge - 1));
-      boundary_[static_cast<std::size_t>(b)] |= ((std::uint64_t{2} << high) - (std::uint64_t{1} << low))
-                                                << (edge * row);
+      boundary_[static_cast<std::size_t>(b)] |= run(low, high) << (edge * row);
     }
   }
   /// The cell is touched already.

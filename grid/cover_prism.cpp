@@ -7,6 +7,7 @@
 
 #include "gridcull/grid/cover_frame.h"
 #include "gridcull/grid/cover_kernels.h"
+#include "gridcull/grid/cover_words.h"
 
 namespace gridcull::covering {
 namespace {

@@ -22,9 +22,11 @@ struct GridOptions {
   Bounds bounds{};
   double cell = 1.0;  ///< metres, > 0
   TbvMode tbv = TbvMode::solid;
-  int threads = 1;                                   ///< 1 .. 256; viewers run in parallel
+  int threads = 1;                                    ///< 1 .. 256; viewers run in parallel
   std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes for the matrices
 };
+
+const MethodInfo& grid_engine_info();
 
 /// Bytes held, by part.
 struct MemoryUse {

@@ -53,8 +53,8 @@ class ExpiryQueue {
 
   std::vector<Link> links_;
   std::vector<std::uint32_t> buckets_ = std::vector<std::uint32_t>(ring, none);
-  double width_ = 0;     // seconds a bucket; 0 until a frame step is known
-  double last_ = 0;      // time of the last pop
+  double width_ = 0;  // seconds a bucket; 0 until a frame step is known
+  double last_ = 0;   // time of the last pop
   bool started_ = false;
 };
 

@@ -3,7 +3,9 @@
 namespace gridcull {
 
 IdentifierMatrix::IdentifierMatrix(const Lattice& lattice)
-    : opaque_(lattice.brick_count(), 0), opaque_static_(lattice.brick_count(), 0), heads_(lattice.brick_count(), none) {}
+    : opaque_(lattice.brick_count(), 0),
+      opaque_static_(lattice.brick_count(), 0),
+      heads_(lattice.brick_count(), none) {}
 
 std::uint32_t IdentifierMatrix::allocate() {
   if (free_ != none) {
@@ -80,9 +82,7 @@ void IdentifierMatrix::update(Slot slot, const Cover& cover, bool occludes, bool
   (last == none ? head : entries_[last].next_of_object) = none;
 }
 
-void IdentifierMatrix::remove(bool is_static, std::uint32_t& head) {
-  update(none, Cover{}, false, is_static, head);
-}
+void IdentifierMatrix::remove(bool is_static, std::uint32_t& head) { update(none, Cover{}, false, is_static, head); }
 
 std::uint64_t IdentifierMatrix::matrix_bytes() const {
   return opaque_.size() * (2 * sizeof(std::uint64_t) + sizeof(std::uint32_t));

@@ -34,7 +34,9 @@ class TbvMatrix {
   void insert(Slot slot, const Ball& ball);
   void erase(Slot slot);
   bool holds(Slot slot) const { return slot < links_.size() && links_[slot].level != none; }
+  /// The slot's ball, also of volumes kept elsewhere (outlines, volumes beyond the lattice).
   const Ball& ball(Slot slot) const { return balls_[slot]; }
+  void set_ball(Slot slot, const Ball& ball) { balls_[slot] = ball; }
   std::uint64_t size() const { return size_; }
 
   /// Whether some volume may touch the brick.

@@ -1,0 +1,101 @@
+#include "gridcull/grid/engine.h"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "gridcull/core/error.h"
+#include "gridcull/grid/engine_state.h"
+
+namespace gridcull {
+
+GridEngine::GridEngine(const GridOptions& options) {
+  if (options.dimension != 2 && options.dimension != 3) {
+    throw Error(ErrorCode::bad_scene, "dimension: expected 2 or 3, found " + std::to_string(options.dimension));
+  }
+  if (options.threads < 1 || options.threads > 256) {
+    throw Error(ErrorCode::usage, "threads: expected 1 .. 256, found " + std::to_string(options.threads));
+  }
+  state_ = std::make_unique<State>(options);
+}
+
+GridEngine::~GridEngine() = default;
+
+const MethodInfo& grid_engine_info() {
+  static constexpr MethodInfo voxel{"voxel",
+                                    "regular grid, occluders fused in object space (Batagelo and Wu 2002)",
+                                    Guarantee::conservative,
+                                    true,
+                                    true,
+                                    true};
+  return voxel;
+}
+
+const MethodInfo& GridEngine::info() const { return grid_engine_info(); }
+
+void GridEngine::add(const Object& object) { state_->add(object); }
+
+void GridEngine::remove(ObjectId object) { state_->remove(state_->slot_of(object)); }
+
+void GridEngine::move(ObjectId object, const Pose& pose) {
+  const Slot slot = state_->slot_of(object);
+  check_pose(pose, object);
+  state_->move(slot, pose);
+}
+
+void GridEngine::set_source(PositionSource* source) { state_->world.source = source; }
+
+void GridEngine::announce_jump(ObjectId object) {
+  const Slot slot = state_->slot_of(object);
+  ObjectState& object_state = state_->world.objects[slot];
+  if (object_state.jumped) return;
+  object_state.jumped = true;
+  state_->jumped.push_back(slot);
+}
+
+void GridEngine::query(double time, std::span<const View> views, Answers& out) {
+  const auto start = std::chrono::steady_clock::now();
+  State& s = *state_;
+  s.check(time, views);
+  s.before = s.now;
+  s.now = time;
+  ++s.world.frame;
+  s.world.positions_read = 0;
+  s.stats = {};
+  s.settle_jumps(time);
+  s.started = true;
+  s.expire();
+  s.discretise();
+  s.note_viewers(views);
+  const auto ready = std::chrono::steady_clock::now();
+  s.answer_views(views, out);
+  const auto answered = std::chrono::steady_clock::now();
+  s.merge(views.size());
+  s.hide_unseen();
+  const auto end = std::chrono::steady_clock::now();
+  const auto us = [](auto d) { return std::chrono::duration<double, std::micro>(d).count(); };
+  s.stats.positions_read = s.world.positions_read;
+  s.stats.tbv_active = s.world.tbv.size() + s.world.hollow.size();
+  s.stats.discretise_us = us(ready - start) + us(end - answered);
+  s.stats.total_us = us(end - start);
+  out.stats = s.stats;
+}
+
+void GridEngine::draw_next(ViewerId viewer, DrawSink* sink) {
+  state_->draw_viewer = viewer;
+  state_->draw_sink = sink;
+}
+
+const Lattice& GridEngine::lattice() const { return state_->world.lattice; }
+
+MemoryUse GridEngine::memory() const {
+  const State& s = *state_;
+  MemoryUse use;
+  use.matrices = s.world.matrix.matrix_bytes() + s.world.tbv.matrix_bytes() + s.world.hollow.matrix_bytes();
+  use.entries = s.world.matrix.entry_bytes() + s.world.tbv.entry_bytes() + s.world.hollow.entry_bytes();
+  use.objects = s.world.objects.bytes() + s.expiries.bytes();
+  for (const auto& task : s.tasks) use.viewers += task->bytes();
+  return use;
+}
+
+}  // namespace gridcull

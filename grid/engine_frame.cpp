@@ -1,0 +1,160 @@
+// The steps of a frame. The order of the answers' bits never depends on scheduling: viewers write only their
+// own answers, and what they reveal is merged in the order of the views.
+#include <cmath>
+#include <string>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "gridcull/core/error.h"
+#include "gridcull/grid/engine_state.h"
+
+namespace gridcull {
+
+void GridEngine::State::check(double time, std::span<const View> views) const {
+  if (!std::isfinite(time)) throw Error(ErrorCode::bad_frame, "time: expected a finite number of seconds");
+  if (started && !(time > now)) {
+    throw Error(ErrorCode::bad_frame,
+                "time: expected more than " + std::to_string(now) + ", found " + std::to_string(time));
+  }
+  for (const View& view : views) (void)ViewVolume(view, options.dimension);
+}
+
+// A hidden object that moved farther than its max_speed allows since the last frame may be anywhere: it is
+// discretised again. Pushed moves are judged here, since only now the frame's time is known; a pull source
+// announces them by the same rule. Pushed positions inside the volume and the speed cost this compare only.
+void GridEngine::State::settle_jumps(double time) {
+  const double step = started ? time - before : 0.0;
+  for (const Pushed& p : pushed) {
+    ObjectState& state = world.objects[p.slot];
+    const double distance = glm::length(state.pose.position - p.from);
+    const bool too_far = started && distance > state.max_speed * step * (1.0 + 1e-9);
+    bool escaped = false;
+    if (state.place == Place::hidden) {
+      const auto& ball = world.tbv.ball(p.slot);
+      escaped = glm::length(state.pose.position - ball.centre) + state.shape->reach() > ball.radius * (1.0 + 1e-12);
+    }
+    if ((too_far || escaped) && !state.jumped) {
+      state.jumped = true;
+      jumped.push_back(p.slot);
+    }
+  }
+  pushed.clear();
+  for (const Slot slot : jumped) {
+    ObjectState& state = world.objects[slot];
+    state.jumped = false;
+    ++stats.jumps;
+    if (state.place == Place::hidden) activate(slot);
+  }
+  jumped.clear();
+}
+
+// Criterion 2 of the paper: hidden and expired, so a new term, twice as long.
+void GridEngine::State::expire() {
+  expired.clear();
+  expiries.pop_expired(now, expired);
+  for (const Slot slot : expired) {
+    ObjectState& state = world.objects[slot];
+    ++stats.tbv_expired;
+    state.pose = world.read(slot);
+    take_volume(slot);
+    state.term = terms.longer(state.term, state.max_speed);
+    give_volume(slot);
+  }
+}
+
+// Objects of the last PVS are discretised, those that did not move excepted.
+void GridEngine::State::discretise() {
+  for (const Slot slot : waiting) {
+    ObjectState& state = world.objects[slot];
+    state.place = Place::active;
+    state.stale = true;
+    if (state.is_static) {
+      cover(slot);
+    } else {
+      active.push_back(slot);
+    }
+  }
+  waiting.clear();
+  for (const Slot slot : active) {
+    ObjectState& state = world.objects[slot];
+    const Pose old = state.pose;
+    state.pose = world.read(slot);
+    if (old.position != state.pose.position || old.orientation.w != state.pose.orientation.w ||
+        old.orientation.x != state.pose.orientation.x || old.orientation.y != state.pose.orientation.y ||
+        old.orientation.z != state.pose.orientation.z) {
+      state.stale = true;
+    }
+    if (state.stale) cover(slot);
+  }
+}
+
+// A viewer that jumped may stand inside an outline without having crossed it: such outlines become solid.
+void GridEngine::State::note_viewers(std::span<const View> views) {
+  viewers.update(world.lattice, views);
+  if (world.hollow.size() == 0 || viewers.jumpers().empty()) return;
+  expired.clear();
+  world.hollow.enclosing(viewers.jumpers(), expired);
+  for (const Slot slot : expired) {
+    world.hollow.erase(slot);
+    world.objects[slot].hollow = false;
+    world.tbv.insert(slot, world.tbv.ball(slot));
+  }
+}
+
+void GridEngine::State::answer_views(std::span<const View> views, Answers& out) {
+  out.views.resize(views.size());
+  results.resize(std::max(results.size(), views.size()));
+  const auto one = [&](std::size_t i, ViewTask& task) {
+    DrawSink* sink = draw_sink != nullptr && views[i].viewer == draw_viewer ? draw_sink : nullptr;
+    task.run(world, views[i], out.views[i], results[i], sink);
+  };
+  if (options.threads == 1 || views.size() < 2) {
+    for (std::size_t i = 0; i < views.size(); ++i) one(i, *tasks[0]);
+  } else {
+    tbb::task_arena arena(options.threads);
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+        one(i, *tasks[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
+      });
+    });
+  }
+  draw_sink = nullptr;
+}
+
+void GridEngine::State::merge(std::size_t views) {
+  for (std::size_t i = 0; i < views; ++i) {
+    for (const Slot slot : results[i].seen) seen[slot] = 1;
+    stats.traverse_us += results[i].traverse_us;
+    stats.occlude_us += results[i].occlude_us;
+    stats.collect_us += results[i].collect_us;
+  }
+  for (std::size_t i = 0; i < views; ++i) {
+    for (const Slot slot : results[i].revealed) {
+      ObjectState& state = world.objects[slot];
+      if (state.place != Place::hidden) continue;  // another view revealed it too
+      ++stats.tbv_revealed;
+      if (state.max_speed > 0.0) state.term = terms.shorter(state.term, state.max_speed);
+      activate(slot);
+      // Seen: in I from now on. Not seen by anyone: hide_unseen() gives it a new volume.
+      if (seen[slot]) cover(slot);
+    }
+  }
+}
+
+// Criterion 1 of the paper: not in anybody's PVS and without a volume, so it gets one.
+void GridEngine::State::hide_unseen() {
+  std::size_t kept = 0;
+  for (const Slot slot : active) {
+    const bool keep = options.tbv == TbvMode::off || seen[slot] || !world.objects[slot].may_hide();
+    seen[slot] = 0;
+    if (keep) {
+      active[kept++] = slot;
+    } else {
+      hide(slot);
+    }
+  }
+  active.resize(kept);
+}
+
+}  // namespace gridcull

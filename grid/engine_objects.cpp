@@ -1,0 +1,154 @@
+// Objects coming, going and moving between frames, and their way between the matrices I and T.
+#include <cmath>
+#include <string>
+
+#include "gridcull/core/error.h"
+#include "gridcull/grid/engine_state.h"
+
+namespace gridcull {
+namespace {
+
+Lattice make_lattice(const GridOptions& o) { return {o.dimension, o.bounds, o.cell, o.max_memory}; }
+
+}  // namespace
+
+GridEngine::State::State(const GridOptions& o) : options(o), world(make_lattice(o)), terms(o.cell) {
+  for (int i = 0; i < o.threads; ++i) tasks.push_back(std::make_unique<ViewTask>());
+}
+
+Slot GridEngine::State::slot_of(ObjectId object) const {
+  const Slot slot = world.objects.find(object);
+  if (slot == none) throw Error(ErrorCode::unknown_object, "object " + std::to_string(object) + " is not there");
+  return slot;
+}
+
+void GridEngine::State::add(const Object& object) {
+  const std::string where = "object " + std::to_string(object.id) + ": ";
+  if (object.id == no_id) throw Error(ErrorCode::bad_scene, where + "expected an id of at most 2^32 - 2");
+  if (world.objects.find(object.id) != none) throw Error(ErrorCode::bad_scene, where + "the id is there already");
+  if (dimension_of(object.shape) != options.dimension) {
+    throw Error(ErrorCode::bad_scene, where + "expected a " + std::to_string(options.dimension) + "D shape, found " +
+                                          std::string(name_of(object.shape)));
+  }
+  if (object.max_speed && !(*object.max_speed >= 0.0 && *object.max_speed <= 1e9)) {
+    throw Error(ErrorCode::bad_scene, where + "expected max_speed 0 .. 1e9");
+  }
+  check_pose(object.pose, object.id);
+  validate(object.shape);
+  PreparedShape shape(object.shape);
+  const Slot slot = world.objects.add(object.id);
+  ObjectState& state = world.objects[slot];
+  state.shape.emplace(std::move(shape));
+  state.pose = object.pose;
+  state.occluder = object.occluder;
+  state.is_static = object.is_static;
+  state.max_speed = object.max_speed ? *object.max_speed : -1.0;
+  if (state.max_speed > 0.0) state.term = terms.first(state.max_speed);
+  state.place = Place::waiting;
+  waiting.push_back(slot);
+  const std::size_t slots = world.objects.size();
+  world.tbv.reserve(slots);
+  world.hollow.reserve(slots);
+  expiries.reserve(slots);
+  pushed_frame.resize(slots, 0);
+  pushed_frame[slot] = 0;
+  seen.resize(slots, 0);
+  seen[slot] = 0;
+}
+
+void GridEngine::State::remove(Slot slot) {
+  leave_grid(slot);
+  std::erase(waiting, slot);
+  std::erase(active, slot);
+  std::erase(jumped, slot);
+  std::erase_if(pushed, [&](const Pushed& p) { return p.slot == slot; });
+  world.objects.remove(slot);
+}
+
+void GridEngine::State::move(Slot slot, const Pose& pose) {
+  ObjectState& state = world.objects[slot];
+  if (state.moves() && state.max_speed >= 0.0 && pushed_frame[slot] != world.frame + 1) {
+    pushed_frame[slot] = world.frame + 1;
+    pushed.push_back({slot, state.pose.position});
+  }
+  state.pose = pose;
+  if (state.place == Place::hidden) return;  // settled when the frame's time is known
+  state.stale = true;
+  if (state.is_static && state.place == Place::active) {
+    state.place = Place::waiting;
+    waiting.push_back(slot);
+  }
+}
+
+void GridEngine::State::set_outside(Slot slot, bool outside) {
+  ObjectState& state = world.objects[slot];
+  if (state.outside == outside) return;
+  state.outside = outside;
+  if (outside) {
+    world.outside.push_back(slot);
+  } else {
+    std::erase(world.outside, slot);
+  }
+}
+
+void GridEngine::State::cover(Slot slot) {
+  ObjectState& state = world.objects[slot];
+  state.shape->cover(world.lattice, state.pose, scratch, cover_buffer);
+  world.matrix.update(slot, cover_buffer, state.occluder, state.is_static, state.entries);
+  set_outside(slot, cover_buffer.outside);
+  state.stale = false;
+}
+
+void GridEngine::State::leave_grid(Slot slot) {
+  ObjectState& state = world.objects[slot];
+  if (state.place == Place::hidden) take_volume(slot);
+  world.matrix.remove(state.is_static, state.entries);
+  set_outside(slot, false);
+}
+
+void GridEngine::State::activate(Slot slot) {
+  ObjectState& state = world.objects[slot];
+  if (state.place == Place::hidden) take_volume(slot);
+  set_outside(slot, false);
+  state.place = Place::active;
+  state.stale = true;
+  active.push_back(slot);
+}
+
+void GridEngine::State::hide(Slot slot) {
+  leave_grid(slot);
+  world.objects[slot].place = Place::hidden;
+  give_volume(slot);
+}
+
+// Solid volumes are always right; an outline is used only where the engine can prove it: it lies wholly in the
+// lattice and encloses no viewer now, and viewers that jump are checked against it (note_viewers).
+void GridEngine::State::give_volume(Slot slot) {
+  ObjectState& state = world.objects[slot];
+  const double reach = state.shape->reach();
+  double seconds = std::numeric_limits<double>::infinity();
+  if (state.max_speed > 0.0) seconds = TbvTerm::spread(state.term, slot, state.renewals++);
+  TbvMatrix::Ball ball{state.pose.position, TbvTerm::radius(state.max_speed, seconds, reach)};
+  expiries.push(slot, now + seconds);
+  world.tbv.set_ball(slot, ball);
+  if (!world.tbv.fits(ball)) {
+    set_outside(slot, true);
+    return;
+  }
+  state.hollow = options.tbv == TbvMode::hollow && world.hollow.insert(slot, ball, viewers.cells());
+  if (!state.hollow) world.tbv.insert(slot, ball);
+}
+
+void GridEngine::State::take_volume(Slot slot) {
+  ObjectState& state = world.objects[slot];
+  expiries.erase(slot);
+  if (state.hollow) {
+    world.hollow.erase(slot);
+    state.hollow = false;
+  } else if (world.tbv.holds(slot)) {
+    world.tbv.erase(slot);
+  }
+  set_outside(slot, false);
+}
+
+}  // namespace gridcull

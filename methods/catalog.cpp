@@ -1,0 +1,51 @@
+#include "gridcull/methods/catalog.h"
+
+#include <array>
+
+#include "gridcull/core/error.h"
+#include "gridcull/grid/engine.h"
+#include "gridcull/methods/frustum.h"
+
+namespace gridcull {
+namespace {
+
+TbvMode tbv_mode(const std::string& name) {
+  if (name == "off") return TbvMode::off;
+  if (name == "solid") return TbvMode::solid;
+  if (name == "hollow") return TbvMode::hollow;
+  throw Error(ErrorCode::usage, "--tbv: expected off, solid or hollow, found " + name);
+}
+
+std::unique_ptr<Culler> make_voxel(const MethodOptions& o) {
+  return std::make_unique<GridEngine>(
+      GridOptions{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads, o.max_memory});
+}
+
+std::unique_ptr<Culler> make_frustum(const MethodOptions& o) { return make_frustum_culler(o.dimension); }
+
+}  // namespace
+
+std::span<const MethodEntry> method_catalog() {
+  static const std::array<MethodEntry, 2> entries{
+      MethodEntry{grid_engine_info(), "--cell C, --tbv off|solid|hollow, --threads N, --max-memory BYTES", &make_voxel},
+      MethodEntry{frustum_culler_info(), "", &make_frustum}};
+  return entries;
+}
+
+std::unique_ptr<Culler> make_method(std::string_view name, const MethodOptions& options) {
+  std::string known;
+  for (const MethodEntry& entry : method_catalog()) {
+    known += (known.empty() ? "" : ", ") + std::string(entry.info.name);
+    if (entry.info.name != name) continue;
+    if (options.dimension == 2 ? !entry.info.takes_2d : !entry.info.takes_3d) {
+      throw Error(ErrorCode::usage, "--method: " + std::string(name) + " does not take " +
+                                        std::to_string(options.dimension) + "D scenes");
+    }
+    return entry.make(options);
+  }
+  throw Error(ErrorCode::usage, "--method: expected one of " + known + ", found " + std::string(name));
+}
+
+std::string_view default_method() { return "voxel"; }
+
+}  // namespace gridcull
