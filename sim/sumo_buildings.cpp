@@ -18,7 +18,8 @@ namespace {
 }
 
 /// "x,y x,y ..." (a third coordinate is passed over).
-std::vector<Vec2> parse_outline(std::string_view text, const std::string& place) {
+template <class Place>
+std::vector<Vec2> parse_outline(std::string_view text, const Place& place) {
   std::vector<Vec2> out;
   constexpr std::string_view spaces = " \t\r\n";
   while (true) {
@@ -31,7 +32,7 @@ std::vector<Vec2> parse_outline(std::string_view text, const std::string& place)
     const std::string_view rest = comma == std::string_view::npos ? "" : point.substr(comma + 1);
     const auto x = parse_number(point.substr(0, comma));
     const auto y = parse_number(rest.substr(0, rest.find(',')));
-    if (!x || !y) refuse(place, "expected a point x,y of magnitude at most 1e9, found " + quoted(point));
+    if (!x || !y) refuse(place(), "expected a point x,y of magnitude at most 1e9, found " + quoted(point));
     out.emplace_back(*x, *y);
   }
 }
@@ -73,12 +74,14 @@ std::vector<SceneObject> read_sumo_buildings(const std::string& path, const std:
   std::vector<SceneObject> out;
   for (const pugi::xml_node& node : root.children("poly")) {
     if (!std::string_view(node.attribute("type").value()).starts_with("building")) continue;
-    const std::string where = place(node.offset_debug()) + "polygon " + quoted(node.attribute("id").value()) + ": ";
-    if (node.attribute("geo").as_bool()) refuse(where, "expected coordinates in metres, found geo coordinates");
+    const auto where = [&] {
+      return place(node.offset_debug()) + "polygon " + quoted(node.attribute("id").value()) + ": ";
+    };
+    if (node.attribute("geo").as_bool()) refuse(where(), "expected coordinates in metres, found geo coordinates");
     const std::vector<Vec2> outline = merged_outline(parse_outline(node.attribute("shape").value(), where));
     const std::size_t points = distinct_points(outline);
     if (points < 3) {
-      notes.push_back(where + std::to_string(points) + " distinct points, at least 3 are needed: skipped");
+      notes.push_back(where() + std::to_string(points) + " distinct points, at least 3 are needed: skipped");
       continue;
     }
     Bounds around;

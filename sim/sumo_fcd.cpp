@@ -120,15 +120,18 @@ void FcdReader::read_step(std::size_t size, FcdStep& out) const {
   };
   if (!parsed) throw Error(ErrorCode::bad_message, line_of(parsed.offset) + "expected XML: " + parsed.description());
   const pugi::xml_node step = document.child("timestep");
+  const auto refuse_node = [&](const pugi::xml_node& node, const std::string& why) {
+    throw Error(ErrorCode::bad_message, line_of(node.offset_debug()) + "<" + node.name() + ">: " + why);
+  };
   const auto number = [&](const pugi::xml_node& node, const char* name) {
     const pugi::xml_attribute attribute = node.attribute(name);
-    const std::string place = line_of(node.offset_debug()) + "<" + node.name() + ">: ";
-    if (!attribute) throw Error(ErrorCode::bad_message, place + "missing attribute " + quoted(name));
+    if (!attribute) refuse_node(node, "missing attribute " + quoted(name));
     const auto value = parse_number(attribute.value());
-    if (value) return *value;
-    throw Error(ErrorCode::bad_message, place + "attribute " + quoted(name) +
-                                            ": expected a number of magnitude at most 1e9, found " +
-                                            quoted(attribute.value()));
+    if (!value) {
+      refuse_node(node, "attribute " + quoted(name) + ": expected a number of magnitude at most 1e9, found " +
+                            quoted(attribute.value()));
+    }
+    return *value;
   };
   out.where = where();
   out.time = number(step, "time");
@@ -137,9 +140,7 @@ void FcdReader::read_step(std::size_t size, FcdStep& out) const {
     const std::string_view kind = node.name();
     if (kind != "vehicle" && kind != "person") continue;
     const pugi::xml_attribute id = node.attribute("id");
-    if (!id)
-      throw Error(ErrorCode::bad_message,
-                  line_of(node.offset_debug()) + "<" + node.name() + ">: missing attribute \"id\"");
+    if (!id) refuse_node(node, "missing attribute \"id\"");
     out.movers.push_back({id.value(), kind == "person", number(node, "x"), number(node, "y"), number(node, "angle")});
   }
 }
