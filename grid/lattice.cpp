@@ -1,5 +1,6 @@
 #include "gridcull/grid/lattice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -9,7 +10,8 @@
 namespace gridcull {
 namespace {
 
-constexpr double greatest_cells = 4e18;  // keeps every product of extents inside 64 bits
+constexpr double greatest_along = 1e12;           // cells along an axis, far below 2^40, the clamp of index()
+constexpr double greatest_bricks = 0x1p32 - 1.0;  // brick indices are 32 bits in covers
 
 double cells_along(double extent, double cell) { return std::fmax(1.0, std::ceil(extent / cell)); }
 
@@ -19,23 +21,51 @@ std::string text(double value) {
   return buffer;
 }
 
-double bytes_at(int dimension, const Vec3& extent, double cell) {
-  double cells = cells_along(extent.x, cell) * cells_along(extent.y, cell);
-  if (dimension == 3) cells *= cells_along(extent.z, cell);
-  return cells;
+/// Cells along each axis, as doubles.
+Vec3 count(int dimension, const Vec3& extent, double cell) {
+  return {cells_along(extent.x, cell), cells_along(extent.y, cell), dimension == 3 ? cells_along(extent.z, cell) : 1.0};
 }
 
-/// Smallest of the cell sizes 1, 2, 5, 10, ... times a power of ten that fits.
+/// Whether the numbers of cells and bricks stay inside their types.
+bool countable(int dimension, const Vec3& along) {
+  if (!(along.x < greatest_along && along.y < greatest_along && along.z < greatest_along)) return false;
+  const double edge = dimension == 2 ? 1 << Lattice::brick_shift_2d : 1 << Lattice::brick_shift_3d;
+  const auto bricks = [&](double n) { return std::ceil(n / edge); };
+  return bricks(along.x) * bricks(along.y) * (dimension == 3 ? bricks(along.z) : 1.0) <= greatest_bricks;
+}
+
+Cell rounded(const Vec3& along) {
+  return {static_cast<std::int64_t>(along.x), static_cast<std::int64_t>(along.y), static_cast<std::int64_t>(along.z)};
+}
+
+bool fits(int dimension, const Vec3& along, std::uint64_t max_memory) {
+  return countable(dimension, along) && Lattice::bytes_for(dimension, rounded(along)) <= max_memory;
+}
+
+/// Smallest of the cell sizes 1, 2, 5, 10, ... times a power of ten above `cell` that fits; the greatest
+/// tried where not even one brick does.
 double cell_that_fits(int dimension, const Vec3& extent, double cell, std::uint64_t max_memory) {
   double size = std::pow(10.0, std::floor(std::log10(cell)));
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 400 && std::isfinite(size); ++i) {
     for (const double step : {1.0, 2.0, 5.0}) {
       const double c = size * step;
-      if (c > cell && bytes_at(dimension, extent, c) < static_cast<double>(max_memory) / 2) return c;
+      if (c > cell && fits(dimension, count(dimension, extent, c), max_memory)) return c;
     }
     size *= 10.0;
   }
   return size;
+}
+
+[[noreturn]] void refuse(int dimension, const Vec3& extent, double cell, std::uint64_t max_memory) {
+  const Vec3 along = count(dimension, extent, cell);
+  const std::string need = countable(dimension, along)
+                               ? text(static_cast<double>(Lattice::bytes_for(dimension, rounded(along)))) +
+                                     " bytes, more than the " + text(static_cast<double>(max_memory)) + " allowed"
+                               : "more than 2^32 bricks of 64 cells";
+  std::string message = "grid.cell: cells of " + text(cell) + " m need " + need;
+  const double fit = cell_that_fits(dimension, extent, cell, max_memory);
+  if (std::isfinite(fit)) message += "; a cell of " + text(fit) + " m would fit";
+  throw Error(ErrorCode::limit, message);
 }
 
 }  // namespace
@@ -50,24 +80,17 @@ Lattice::Lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t
   if (!(cell > 0.0) || !std::isfinite(cell)) {
     throw Error(ErrorCode::bad_scene, "grid.cell: expected a size above 0, found " + text(cell));
   }
-  const double cells = bytes_at(dimension, extent, cell);
-  const Vec3 along(cells_along(extent.x, cell), cells_along(extent.y, cell),
-                   dimension == 3 ? cells_along(extent.z, cell) : 1.0);
-  const bool countable = cells < greatest_cells && along.x < 1e12 && along.y < 1e12 && along.z < 1e12;
-  if (countable) {
-    cells_ = {static_cast<std::int64_t>(along.x), static_cast<std::int64_t>(along.y),
-              static_cast<std::int64_t>(along.z)};
-  }
-  if (!countable || bytes_for(dimension, cells_) > max_memory) {
-    throw Error(ErrorCode::limit, "grid.cell: cells of " + text(cell) + " m need " +
-                                      (countable ? text(static_cast<double>(bytes_for(dimension, cells_))) : "over 1e18") +
-                                      " bytes, more than the " + text(static_cast<double>(max_memory)) +
-                                      " allowed; a cell of " +
-                                      text(cell_that_fits(dimension, extent, cell, max_memory)) + " m would fit");
-  }
+  const Vec3 along = count(dimension, extent, cell);
+  if (!fits(dimension, along, max_memory)) refuse(dimension, extent, cell, max_memory);
+  cells_ = rounded(along);
   const auto bricks_along = [&](std::int64_t n) { return (n + brick_edge() - 1) >> brick_shift(); };
   bricks_ = {bricks_along(cells_.x), bricks_along(cells_.y), dimension == 3 ? bricks_along(cells_.z) : 1};
   brick_count_ = static_cast<std::size_t>(bricks_.x * bricks_.y * bricks_.z);
+  const Bounds b = box();
+  box_magnitude_ = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    box_magnitude_ = std::fmax(box_magnitude_, std::fmax(std::fabs(b.min[k]), std::fabs(b.max[k])));
+  }
 }
 
 Bounds Lattice::box() const {
@@ -89,12 +112,6 @@ Cell Lattice::cell_of(const Vec3& point) const {
   return {index(0, point.x), index(1, point.y), dimension_ == 3 ? index(2, point.z) : 0};
 }
 
-double Lattice::margin(double magnitude) const {
-  const Bounds b = box();
-  for (int k = 0; k < 3; ++k) magnitude = std::fmax(magnitude, std::fmax(std::fabs(b.min[k]), std::fabs(b.max[k])));
-  return 0x1p-44 * magnitude;
-}
-
 Cell Lattice::brick_corner(std::size_t brick) const {
   const auto b = static_cast<std::int64_t>(brick);
   const int s = brick_shift();
@@ -105,15 +122,15 @@ Cell Lattice::brick_corner(std::size_t brick) const {
 
 std::uint64_t Lattice::brick_cells(std::size_t brick) const {
   const Cell low = brick_corner(brick);
-  const int edge = brick_edge();
+  const std::int64_t edge = brick_edge();
+  const std::int64_t nx = std::min(edge, cells_.x - low.x), ny = std::min(edge, cells_.y - low.y);
+  const std::int64_t nz = dimension_ == 3 ? std::min(edge, cells_.z - low.z) : 1;
+  const std::int64_t layer_bits = edge * edge;  // 64 in 2D, 16 in 3D
+  if (nx == edge && ny == edge && nz * layer_bits == 64) return ~std::uint64_t{0};
+  const std::uint64_t row = (std::uint64_t{1} << nx) - 1;
   std::uint64_t bits = 0;
-  for (int z = 0; z < (dimension_ == 3 ? edge : 1); ++z) {
-    for (int y = 0; y < edge; ++y) {
-      for (int x = 0; x < edge; ++x) {
-        const Cell c{low.x + x, low.y + y, low.z + z};
-        if (holds(c)) bits |= std::uint64_t{1} << bit_of(c);
-      }
-    }
+  for (std::int64_t z = 0; z < nz; ++z) {
+    for (std::int64_t y = 0; y < ny; ++y) bits |= row << (y * edge + z * layer_bits);
   }
   return bits;
 }

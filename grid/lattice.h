@@ -4,6 +4,8 @@
 // Cells are kept in bricks of 64, one machine word of bits each: 8 x 8 in 2D, 4 x 4 x 4 in 3D, x fastest.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "gridcull/core/bounds.h"
@@ -22,7 +24,7 @@ class Lattice {
  public:
   /// Cells of side `cell` (metres, > 0) from bounds.min on, as many as cover the bounds, at least one.
   /// Throws Error(bad_scene) for empty or non-finite bounds or cell, Error(limit) when bytes_for() exceeds
-  /// `max_memory` (the message says what cell size would fit).
+  /// `max_memory` or there would be 2^32 bricks or more (the message says what cell size would fit).
   Lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t max_memory);
 
   int dimension() const { return dimension_; }
@@ -49,7 +51,7 @@ class Lattice {
   /// `magnitude`: 2^-44 of the greatest coordinate, about 500 ulp of it. A cell counts as inside an
   /// occluder only if it is so when grown by this, and as touched when it is so when grown by this; hence
   /// the ideal lattice that the occlusion proofs speak of may differ from the rounded one.
-  double margin(double magnitude = 0.0) const;
+  double margin(double magnitude = 0.0) const { return 0x1p-44 * std::fmax(magnitude, box_magnitude_); }
 
   // Bricks.
   static constexpr int brick_shift_2d = 3;
@@ -87,6 +89,7 @@ class Lattice {
   Cell cells_;
   Cell bricks_;
   std::size_t brick_count_;
+  double box_magnitude_;  // greatest |coordinate| of box()
 };
 
 }  // namespace gridcull
