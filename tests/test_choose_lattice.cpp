@@ -41,6 +41,13 @@ TEST_CASE("the cell is a quarter of the typical occluder's smaller side") {
   CHECK(choice.cell_reason.find("8 m") != std::string::npos);
 }
 
+TEST_CASE("ways that are known widen the bounds") {
+  const Bounds ways{{-1.5, 0.0, 0.0}, {200.0, 40.0, 0.0}};
+  const LatticeChoice choice = choose_lattice(2, houses(2, 20.0), std::nullopt, std::nullopt, ways);
+  CHECK(choice.bounds.min == Vec3(-6.0, -4.0, 0.0));
+  CHECK(choice.bounds.max == Vec3(200.0, 40.0, 0.0));
+}
+
 TEST_CASE("what does not occlude and what is thin does not count") {
   auto objects = houses(2, 20.0);
   for (ObjectId i = 100; i < 120; ++i) {
