@@ -23,22 +23,29 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 template <int edge>
 struct Squares {
   alignas(16) std::array<double, edge> near, far;
-  double nearest, farthest;  ///< least near, greatest far
+  double nearest;  ///< least near
+  double least_far, most_far;
 
   void fill(const Axis& axis, std::int64_t brick, const Range& clip, double centre, double margin) {
-    nearest = infinite;
-    farthest = 0.0;
+    // Cell numbers as doubles (exact: below 2^40), so that the loop needs no conversion and runs in SIMD.
+    const auto first = static_cast<double>(brick * edge);
+    const auto low_end = static_cast<double>(clip.first), high_end = static_cast<double>(clip.last);
     for (int k = 0; k < edge; ++k) {
-      const std::int64_t i = brick * edge + k;
-      const double low = axis.boundary(i) - centre - margin;
-      const double high = axis.boundary(i + 1) - centre + margin;
+      const double i = first + static_cast<double>(k);
+      const double low = axis.origin + i * axis.cell - centre - margin;
+      const double high = axis.origin + (i + 1.0) * axis.cell - centre + margin;
       const double gap = std::max(std::max(low, -high), 0.0);
       const double reach = std::max(high, -low);
-      const bool in = i >= clip.first && i <= clip.last;
+      const bool in = (i >= low_end) & (i <= high_end);
       near[k] = in ? gap * gap : infinite;
       far[k] = in ? reach * reach : infinite;
+    }
+    nearest = least_far = infinite;
+    most_far = 0.0;
+    for (int k = 0; k < edge; ++k) {
       nearest = std::min(nearest, near[k]);
-      farthest = std::max(farthest, far[k]);
+      least_far = std::min(least_far, far[k]);
+      most_far = std::max(most_far, far[k]);
     }
   }
 };
@@ -74,34 +81,41 @@ class Columns {
   std::array<Squares<edge>, held> squares_;
 };
 
-/// One row of bricks along x: `limit_near[j]` and `limit_far[j]` are r^2 less the squares of y and z of row j.
+/// One row of bricks along x: limits are r^2 less the squares of y and z, a row of cells each.
 template <int edge>
 struct BrickRow {
   static constexpr int rows = 64 / edge;
-  std::array<double, rows> limit_near, limit_far;
-  double best_near, worst_far;  ///< greatest limit_near, least limit_far
+  std::array<double, rows> near, far;
+  double best_near;            ///< greatest near
+  double best_far, worst_far;  ///< greatest and least far; not above 0 where nothing can be opaque
 };
 
 template <int edge>
 void brick_row(const BrickRow<edge>& row, Columns<edge>& columns, const Range& bricks, std::size_t base,
-               bool with_opaque, std::vector<BrickCover>& out) {
+               std::vector<BrickCover>& out) {
   const std::size_t from = out.size();
   out.resize(from + static_cast<std::size_t>(bricks.last - bricks.first + 1));
   BrickCover* next = out.data() + from;
   for (std::int64_t b = bricks.first; b <= bricks.last; ++b) {
     const Squares<edge>& x = columns.at(b);
     if (!(x.nearest <= row.best_near)) continue;
-    const std::uint64_t opaque_all = with_opaque && x.farthest < row.worst_far ? ~std::uint64_t{0} : 0;
-    const std::uint64_t touched =
-        opaque_all != 0 ? opaque_all : bits_at_most<edge>(x.near.data(), row.limit_near.data());
-    if (touched == 0) continue;
-    const bool any_opaque = with_opaque && opaque_all == 0;
     next->brick = static_cast<std::uint32_t>(base + static_cast<std::size_t>(b));
-    next->touched = touched;
-    next->opaque = any_opaque ? bits_below<edge>(x.far.data(), row.limit_far.data()) : opaque_all;
-    ++next;
+    next->opaque = 0;
+    if (x.most_far < row.worst_far) {
+      next->touched = next->opaque = ~std::uint64_t{0};
+      ++next;
+      continue;
+    }
+    next->touched = bits_at_most<edge>(x.near.data(), row.near.data());
+    if (x.least_far < row.best_far) next->opaque = bits_below<edge>(x.far.data(), row.far.data());
+    next += next->touched != 0;
   }
   out.resize(static_cast<std::size_t>(next - out.data()));
+}
+
+/// Cells whose own half diagonal is not below the radius are never inside.
+bool may_be_opaque(const Lattice& lattice, double radius) {
+  return 4.0 * radius * radius > lattice.dimension() * lattice.cell() * lattice.cell();
 }
 
 void disc(const Lattice& lattice, const Vec3& centre, double radius, double margin, bool with_opaque, Cover& out) {
@@ -118,13 +132,13 @@ void disc(const Lattice& lattice, const Vec3& centre, double radius, double marg
     sy.fill(ay, by, y, centre.y, margin);
     BrickRow<edge> row;
     for (int j = 0; j < edge; ++j) {
-      row.limit_near[j] = r2 - sy.near[j];
-      row.limit_far[j] = r2 - sy.far[j];
+      row.near[j] = r2 - sy.near[j];
+      row.far[j] = r2 - sy.far[j];
     }
     row.best_near = r2 - sy.nearest;
-    row.worst_far = r2 - sy.farthest;
-    brick_row<edge>(row, columns, {x.first / edge, x.last / edge}, lattice.brick_index({0, by, 0}), with_opaque,
-                    out.bricks);
+    row.best_far = with_opaque ? r2 - sy.least_far : -infinite;
+    row.worst_far = with_opaque ? r2 - sy.most_far : -infinite;
+    brick_row<edge>(row, columns, {x.first / edge, x.last / edge}, lattice.brick_index({0, by, 0}), out.bricks);
   }
 }
 
@@ -136,26 +150,25 @@ void sphere(const Lattice& lattice, const Vec3& centre, double radius, double ma
   const Range y = ay.touched(centre.y - reach, centre.y + reach, out.outside);
   const Range z = az.touched(centre.z - reach, centre.z + reach, out.outside);
   if (x.empty() || y.empty() || z.empty()) return;
-  Columns<edge> columns(ax, x, centre.x, margin);
+  Columns<edge> columns(ax, x, centre.x, margin), rows(ay, y, centre.y, margin);
   const double r2 = radius * radius;
   for (std::int64_t bz = z.first / edge; bz <= z.last / edge; ++bz) {
     Squares<edge> sz;
     sz.fill(az, bz, z, centre.z, margin);
     for (std::int64_t by = y.first / edge; by <= y.last / edge; ++by) {
-      Squares<edge> sy;
-      sy.fill(ay, by, y, centre.y, margin);
+      const Squares<edge>& sy = rows.at(by);
       BrickRow<edge> row;
       row.best_near = r2 - (sy.nearest + sz.nearest);
       if (!(row.best_near >= 0.0)) continue;
-      row.worst_far = r2 - (sy.farthest + sz.farthest);
+      row.best_far = with_opaque ? r2 - (sy.least_far + sz.least_far) : -infinite;
+      row.worst_far = with_opaque ? r2 - (sy.most_far + sz.most_far) : -infinite;
       for (int k = 0; k < edge; ++k) {
         for (int j = 0; j < edge; ++j) {
-          row.limit_near[k * edge + j] = r2 - (sy.near[j] + sz.near[k]);
-          row.limit_far[k * edge + j] = r2 - (sy.far[j] + sz.far[k]);
+          row.near[k * edge + j] = r2 - (sy.near[j] + sz.near[k]);
+          row.far[k * edge + j] = r2 - (sy.far[j] + sz.far[k]);
         }
       }
-      brick_row<edge>(row, columns, {x.first / edge, x.last / edge}, lattice.brick_index({0, by, bz}), with_opaque,
-                      out.bricks);
+      brick_row<edge>(row, columns, {x.first / edge, x.last / edge}, lattice.brick_index({0, by, bz}), out.bricks);
     }
   }
 }
@@ -166,6 +179,7 @@ void ball(const Lattice& lattice, const Vec3& centre, double radius, bool with_o
   const bool flat = lattice.dimension() == 2;
   const double across = std::max(std::abs(centre.x), std::abs(centre.y));
   const double margin = lattice.margin((flat ? across : std::max(across, std::abs(centre.z))) + radius);
+  with_opaque = with_opaque && may_be_opaque(lattice, radius);
   if (flat) {
     disc(lattice, centre, radius, margin, with_opaque, out);
   } else {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gridcull/grid/bits.h"
+#include "gridcull/grid/ball_bits.h"
 
 namespace gridcull {
 
@@ -86,33 +86,39 @@ void TbvMatrix::erase(Slot slot) {
   count(balls_[slot], static_cast<std::uint32_t>(-1));
 }
 
-bool TbvMatrix::ball_touches(const Ball& ball, const Cell& corner, std::uint64_t bits) const {
-  const int edge = lattice_.brick_edge();
-  const int layers = lattice_.dimension() == 3 ? edge : 1;
-  const double r = ball.radius + lattice_.margin();
-  const auto gap = [&](int axis, std::int64_t cell) {
-    const double low = lattice_.boundary(axis, cell) - ball.centre[axis];
-    const double high = ball.centre[axis] - lattice_.boundary(axis, cell + 1);
-    return std::max({low, high, 0.0});
-  };
-  const std::uint64_t row_mask = lattice_.dimension() == 3 ? 0xFu : 0xFFu;
-  for (int z = 0; z < layers; ++z) {
-    const double gz = lattice_.dimension() == 3 ? gap(2, corner.z + z) : 0.0;
-    for (int y = 0; y < edge; ++y) {
-      const std::uint64_t row = (bits >> ((z * edge + y) * edge)) & row_mask;
-      if (row == 0) continue;
-      const double gy = gap(1, corner.y + y);
-      const double rest = r * r - gy * gy - gz * gz;
-      if (rest < 0.0) continue;
-      bool hit = false;
-      for_each_bit(row, [&](int x) {
-        const double gx = gap(0, corner.x + x);
-        hit = hit || gx * gx <= rest;
-      });
-      if (hit) return true;
-    }
+TbvMatrix::BrickLines TbvMatrix::lines_of(const Cell& corner) const {
+  BrickLines lines{};
+  const std::array<std::int64_t, 3> first{corner.x, corner.y, corner.z};
+  for (int k = 0; k < lattice_.dimension(); ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    for (int i = 0; i <= lattice_.brick_edge(); ++i)
+      lines.at[axis][static_cast<std::size_t>(i)] = lattice_.boundary(k, first[axis] + i);
   }
-  return false;
+  return lines;
+}
+
+bool TbvMatrix::ball_touches(const Ball& ball, const BrickLines& lines, std::uint64_t bits) const {
+  const auto edge = static_cast<std::size_t>(lattice_.brick_edge());
+  const double r = ball.radius + lattice_.margin();
+  // Squared distance of the centre to cell i along an axis.
+  const auto square = [&](int axis, std::size_t i) {
+    const auto& at = lines.at[static_cast<std::size_t>(axis)];
+    const double c = ball.centre[axis];
+    const double gap = std::max({at[i] - c, c - at[i + 1], 0.0});
+    return gap * gap;
+  };
+  alignas(16) std::array<double, 8> squares{};
+  std::array<double, 16> limits{};
+  for (std::size_t i = 0; i < edge; ++i) squares[i] = square(0, i);
+  if (lattice_.dimension() == 2) {
+    for (std::size_t y = 0; y < 8; ++y) limits[y] = r * r - square(1, y);
+    return (covering::bits_at_most<8>(squares.data(), limits.data()) & bits) != 0;
+  }
+  for (std::size_t z = 0; z < 4; ++z) {
+    const double rest = r * r - square(2, z);
+    for (std::size_t y = 0; y < 4; ++y) limits[4 * z + y] = rest - square(1, y);
+  }
+  return (covering::bits_at_most<4>(squares.data(), limits.data()) & bits) != 0;
 }
 
 std::uint64_t TbvMatrix::matrix_bytes() const {

@@ -7,6 +7,8 @@
 // may touch costs one load in the traversal; renewing a volume costs a few stores whatever its size.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -42,10 +44,10 @@ class TbvMatrix {
   /// Whether some volume may touch the brick.
   bool may_touch(std::size_t brick) const { return counts_[brick] != 0; }
 
-  /// Calls f(slot) for every volume that may touch one of the cells `bits` of the brick. f must not change
-  /// the matrix. Returns the number of volumes looked at.
-  template <class F>
-  std::uint64_t touching(std::size_t brick, std::uint64_t bits, F&& f) const;
+  /// Calls f(slot) for every volume that may touch one of the cells `bits` of the brick and for which
+  /// wanted(slot). f must not change the matrix. Returns the number of volumes looked at.
+  template <class W, class F>
+  std::uint64_t touching(std::size_t brick, std::uint64_t bits, W&& wanted, F&& f) const;
 
   std::uint64_t matrix_bytes() const;
   std::uint64_t entry_bytes() const { return links_.capacity() * sizeof(Link) + balls_.capacity() * sizeof(Ball); }
@@ -66,7 +68,12 @@ class TbvMatrix {
   std::uint32_t level_cell(const Level& level, const Cell& c) const;
   /// Adds `step` to the count of every brick that the ball's box touches.
   void count(const Ball& ball, std::uint32_t step);
-  bool ball_touches(const Ball& ball, const Cell& corner, std::uint64_t bits) const;
+  /// Boundaries of a brick's cells along each axis, metres.
+  struct BrickLines {
+    std::array<std::array<double, 9>, 3> at;
+  };
+  BrickLines lines_of(const Cell& corner) const;
+  bool ball_touches(const Ball& ball, const BrickLines& lines, std::uint64_t bits) const;
 
   const Lattice& lattice_;
   std::vector<Level> levels_;
@@ -76,10 +83,11 @@ class TbvMatrix {
   std::uint64_t size_ = 0;
 };
 
-template <class F>
-std::uint64_t TbvMatrix::touching(std::size_t brick, std::uint64_t bits, F&& f) const {
+template <class W, class F>
+std::uint64_t TbvMatrix::touching(std::size_t brick, std::uint64_t bits, W&& wanted, F&& f) const {
   std::uint64_t looked = 0;
   const Cell corner = lattice_.brick_corner(brick);
+  const BrickLines lines = lines_of(corner);
   const std::int64_t edge = lattice_.brick_edge();
   for (const Level& level : levels_) {
     if (level.size == 0) continue;
@@ -99,7 +107,7 @@ std::uint64_t TbvMatrix::touching(std::size_t brick, std::uint64_t bits, F&& f) 
           const auto cell = static_cast<std::size_t>((z * level.cells.y + y) * level.cells.x + x);
           for (std::uint32_t slot = level.heads[cell]; slot != none; slot = links_[slot].after) {
             ++looked;
-            if (ball_touches(balls_[slot], corner, bits)) f(slot);
+            if (wanted(slot) && ball_touches(balls_[slot], lines, bits)) f(slot);
           }
         }
       }

@@ -149,9 +149,10 @@ void ViewTask::look(std::size_t brick, std::uint64_t bits) {
   const bool solid = world.tbv.may_touch(lattice_brick), hollow = world.hollow.may_touch(lattice_brick);
   if (!solid && !hollow) return;
   pending_.clear();
+  const auto wanted = [&](Slot slot) { return stamps_[slot] != stamp_ && slot != rides_; };
   const auto found = [&](Slot slot) { pending_.push_back(slot); };
-  if (solid) answer_->work.tbv_tests += world.tbv.touching(lattice_brick, bits, found);
-  if (hollow) answer_->work.tbv_tests += world.hollow.touching(lattice_brick, bits, found);
+  if (solid) answer_->work.tbv_tests += world.tbv.touching(lattice_brick, bits, wanted, found);
+  if (hollow) answer_->work.tbv_tests += world.hollow.touching(lattice_brick, bits, wanted, found);
   for (const Slot slot : pending_) reveal(slot);
 }
 
