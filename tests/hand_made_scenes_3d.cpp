@@ -201,7 +201,7 @@ void add_limits(std::vector<HandMadeScene>& out) {
   out.push_back(scene("what sticks out through near is seen, and alone hides what is behind")
                     .eye({0, 0, 0})
                     .frustum(60, 1, 5, 100)
-                    .object(0, cuboid(8, 2, 2), {6, 0, 0})
+                    .object(0, cuboid(8, 1, 1), {6, 0, 0})
                     .object(1, sphere(0.5), {20, 0, 0})
                     .object(2, sphere(1), {20, 8, 0})
                     .sees({0, 2})
