@@ -34,8 +34,9 @@ std::string run_table(const WorldOptions& options, const PreparedWorld& world, c
                              " s: " + number_text(seconds > 0 ? static_cast<double>(stats.frames) / seconds : 0, 4) +
                              " a second");
   table += row("queries", std::to_string(stats.queries));
-  table += row("mean PVS",
-               number_text(stats.pvs_mean, 4) + " objects, of " + number_text(stats.in_view_mean, 4) + " in view");
+  table +=
+      row("mean PVS", number_text(stats.pvs_mean, 4) + " objects" +
+                          (stats.in_view_mean > 0.0 ? ", of " + number_text(stats.in_view_mean, 4) + " in view" : ""));
   table += row("time a frame", milliseconds(stats.total_us.median) + " median, " + milliseconds(stats.total_us.p99) +
                                    " p99, " + milliseconds(stats.total_us.max) + " max");
   table += row("positions", number_text(stats.positions_read_mean, 4) + " read a frame");

@@ -19,6 +19,9 @@ void check_options(const WorldOptions& options) {
   if (options.threads < 1 || options.threads > 256) {
     throw option_error("--threads", "1 .. 256", std::to_string(options.threads));
   }
+  if (options.tbv != "off" && options.tbv != "solid" && options.tbv != "hollow") {
+    throw option_error("--tbv", "off, solid or hollow", options.tbv);
+  }
   if (options.scene == "-" && options.frames == "-") {
     throw Error(ErrorCode::usage, "--frames -: standard input is the scene already");
   }
