@@ -7,6 +7,8 @@
 #include <new>
 #include <string>
 
+#include <tbb/global_control.h>
+
 #include <CLI/CLI.hpp>
 
 #include "gridcull/core/error.h"
@@ -17,6 +19,7 @@ namespace gridcull {
 namespace {
 
 constexpr int bad_input = 2;
+constexpr std::size_t most_threads = 256;
 
 /// One line, whatever the message holds.
 int refuse(std::string message) {
@@ -36,6 +39,8 @@ int stopped() {
 int perform(const Action& action) {
   try {
     catch_interrupts();
+    // More threads than cores are allowed; unless told so, TBB writes a warning of its own.
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, most_threads);
     const int status = action();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
       return refuse(std::string("standard output: cannot be written: ") + std::strerror(errno));

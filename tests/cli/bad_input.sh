@@ -66,10 +66,10 @@ refused "too large a grid" "would fit" run s.json "${everything[@]}"
 for method in $("$program" methods | sed -n 's/^\([a-z-]*\).*:.*/\1/p'); do
   refused "too large a grid for $method" "would fit" run s.json --method "$method" "${everything[@]}"
 done
-fits=$(sed -n 's/.*a cell of \([0-9.e+-]*\) m would fit.*/\1/p' stderr.txt)
-good "a cell of $fits fits" info s.json --cell "$fits"
 scene s.json "$box" "$eye" '"bounds": {"min": [0, 0], "max": [1000, 1000]}, "grid": {"cell": 1},'
-refused "--max-memory" "would fit" run s.json --max-memory 1000 "${everything[@]}"
+refused "--max-memory" "would fit" run s.json --max-memory 100000 "${everything[@]}"
+fits=$(sed -n 's/.*a cell of \([0-9.e+-]*\) m would fit.*/\1/p' stderr.txt)
+good "a cell of $fits fits" info s.json --cell "$fits" --max-memory 100000
 
 # Frames
 scene s.json "$box" "$eye"
