@@ -1,116 +1,133 @@
-// Balls (2D: discs): closed formula per cell, four cells of a row at a time.
+// Balls (2D: discs): closed formula per cell, a row of four or eight cells at a time.
 // Batagelo and Wu 2002, sections 4.1 and 5.1, rasterise grown and shrunk outlines; here the nearest and the
 // farthest point of each grown cell from the centre decide, which is exact up to the margin:
 //   touched: near.x^2 + near.y^2 + near.z^2 <= r^2,   opaque: far.x^2 + far.y^2 + far.z^2 < r^2.
-// Rounding: relative coordinates are off by 2 ulp of M, the greatest |coordinate|; near and far are moved by
-// the margin, some 500 ulp of M, to the safe side, and r <= M, so r^2 minus the squares (3 roundings of at
-// most r^2 * 2^-53 each) errs by less than the margin moves it: in (near + margin)^2 - near^2 >= 2 margin near,
-// where near >= r / 2 for one axis on every surface point (r / sqrt 3 > r / 2).
+// Rounding: distances along an axis are off by a few ulp of M, the greatest |coordinate|; near and far are
+// moved by the margin, some 500 ulp of M, to the safe side, and r <= M, so r^2 minus the squares (a handful of
+// roundings of at most r^2 * 2^-53 each) errs by less than the margin moves it: by at least 2 margin near,
+// where near > r / 2 along one axis for every surface point (r / sqrt 3 > r / 2).
 #include <array>
-#include <bit>
 #include <limits>
 
-#include "gridcull/grid/ball_bits.h"
 #include "gridcull/grid/cover_frame.h"
 #include "gridcull/grid/cover_kernels.h"
+#include "gridcull/grid/double_pair.h"
 
 namespace gridcull::covering {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Squares of the distances of the cells of one brick along one axis from the centre; infinite beyond `clip`.
+/// Squares of the nearest and farthest distances of the cells of one brick from the centre, along one axis;
+/// infinite for cells beyond the lattice.
 template <int edge>
 struct Squares {
-  alignas(16) std::array<double, edge> near, far;
-  double nearest;  ///< least near
-  double least_far, most_far;
+  static constexpr int pairs = edge / 2;
+  std::array<DoublePair, pairs> near, far;
+  double least_near, least_far, most_far;
 
-  void fill(const Axis& axis, std::int64_t brick, const Range& clip, double centre, double margin) {
-    // Cell numbers as doubles (exact: below 2^40), so that the loop needs no conversion and runs in SIMD.
+  void fill(const Axis& axis, std::int64_t brick, double centre, double margin) {
+    const DoublePair half = DoublePair::both(0.5 * axis.cell + margin);
+    const DoublePair origin = DoublePair::both(axis.origin), cell = DoublePair::both(axis.cell);
+    const DoublePair about = DoublePair::both(centre), none = DoublePair::both(0.0);
     const auto first = static_cast<double>(brick * edge);
-    const auto low_end = static_cast<double>(clip.first), high_end = static_cast<double>(clip.last);
-    for (int k = 0; k < edge; ++k) {
-      const double i = first + static_cast<double>(k);
-      const double low = axis.origin + i * axis.cell - centre - margin;
-      const double high = axis.origin + (i + 1.0) * axis.cell - centre + margin;
-      const double gap = std::max(std::max(low, -high), 0.0);
-      const double reach = std::max(high, -low);
-      const bool in = (i >= low_end) & (i <= high_end);
-      near[k] = in ? gap * gap : infinite;
-      far[k] = in ? reach * reach : infinite;
+    DoublePair middle = DoublePair::of(first + 0.5, first + 1.5);  // in cells
+    for (int p = 0; p < pairs; ++p) {
+      const DoublePair away = absolute(origin + middle * cell - about);
+      const DoublePair gap = greatest(away - half, none), reach = away + half;
+      near[p] = gap * gap;
+      far[p] = reach * reach;
+      middle = middle + DoublePair::both(2.0);
     }
-    nearest = least_far = infinite;
-    most_far = 0.0;
-    for (int k = 0; k < edge; ++k) {
-      nearest = std::min(nearest, near[k]);
-      least_far = std::min(least_far, far[k]);
-      most_far = std::max(most_far, far[k]);
-    }
-  }
-};
-
-/// The squares along x, 16 bricks at a time: computed once for all but huge balls.
-template <int edge>
-class Columns {
- public:
-  Columns(const Axis& axis, const Range& clip, double centre, double margin)
-      : axis_(axis), clip_(clip), centre_(centre), margin_(margin), first_(clip.first / edge) {
-    load(0);
-  }
-  const Squares<edge>& at(std::int64_t brick) {
-    const std::int64_t block = (brick - first_) / held;
-    if (block != block_) load(block);
-    return squares_[static_cast<std::size_t>((brick - first_) % held)];
+    if (brick * edge + edge > axis.cells) cut(first, static_cast<double>(axis.cells));
+    measure();
   }
 
  private:
-  static constexpr int held = 16;
-  void load(std::int64_t block) {
-    block_ = block;
-    const std::int64_t last = std::min(first_ + (block + 1) * held - 1, clip_.last / edge);
-    for (std::int64_t b = first_ + block * held; b <= last; ++b) {
-      squares_[static_cast<std::size_t>((b - first_) % held)].fill(axis_, b, clip_, centre_, margin_);
+  void cut(double first, double cells) {
+    const DoublePair end = DoublePair::both(cells), never = DoublePair::both(infinite);
+    for (int p = 0; p < pairs; ++p) {
+      const DoublePair i = DoublePair::of(first + 2 * p, first + 2 * p + 1);
+      near[p] = where_less(i, end, near[p], never);
+      far[p] = where_less(i, end, far[p], never);
+    }
+  }
+  void measure() {
+    DoublePair a = near[0], b = far[0], c = far[0];
+    for (int p = 1; p < pairs; ++p) {
+      a = least(a, near[p]);
+      b = least(b, far[p]);
+      c = greatest(c, far[p]);
+    }
+    least_near = std::min(a.first(), a.second());
+    least_far = std::min(b.first(), b.second());
+    most_far = std::max(c.first(), c.second());
+  }
+};
+
+/// The squares along an axis, 8 bricks at a time: computed once for all but large balls.
+template <int edge>
+class Line {
+ public:
+  Line(const Axis& axis, const Range& cells, double centre, double margin)
+      : axis_(axis), centre_(centre), margin_(margin), first_(cells.first / edge), last_(cells.last / edge) {
+    load(first_);
+  }
+  std::int64_t first() const { return first_; }
+  std::int64_t last() const { return last_; }
+  const Squares<edge>& at(std::int64_t brick) {
+    if (static_cast<std::uint64_t>(brick - loaded_) >= held) load(brick);
+    return squares_[static_cast<std::size_t>(brick - loaded_)];
+  }
+
+ private:
+  static constexpr std::uint64_t held = 8;
+  void load(std::int64_t from) {
+    loaded_ = from;
+    const std::int64_t end = std::min(from + static_cast<std::int64_t>(held) - 1, last_);
+    for (std::int64_t b = from; b <= end; ++b) {
+      squares_[static_cast<std::size_t>(b - from)].fill(axis_, b, centre_, margin_);
     }
   }
 
   Axis axis_;
-  Range clip_;
   double centre_, margin_;
-  std::int64_t first_, block_ = 0;
+  std::int64_t first_, last_, loaded_;
   std::array<Squares<edge>, held> squares_;
 };
 
-/// One row of bricks along x: limits are r^2 less the squares of y and z, a row of cells each.
+/// One row of bricks along x, in blocks of 16 cells (two rows in 2D, a layer in 3D): what the squares of y and
+/// z leave of r^2, a pair of rows at a time.
 template <int edge>
 struct BrickRow {
-  static constexpr int rows = 64 / edge;
-  std::array<double, rows> near, far;
-  double best_near;            ///< greatest near
-  double best_far, worst_far;  ///< greatest and least far; not above 0 where nothing can be opaque
+  static constexpr int pairs = 8 / edge;  ///< of rows in a block
+  std::array<std::array<DoublePair, pairs>, 4> near, far;
+  int first_block, last_block;  ///< that can touch the ball
+  double best_near;             ///< greatest near
+  double best_far, worst_far;   ///< greatest and least far; -infinite where nothing can be opaque
 };
 
 template <int edge>
-void brick_row(const BrickRow<edge>& row, Columns<edge>& columns, const Range& bricks, std::size_t base,
-               std::vector<BrickCover>& out) {
-  const std::size_t from = out.size();
-  out.resize(from + static_cast<std::size_t>(bricks.last - bricks.first + 1));
-  BrickCover* next = out.data() + from;
-  for (std::int64_t b = bricks.first; b <= bricks.last; ++b) {
-    const Squares<edge>& x = columns.at(b);
-    if (!(x.nearest <= row.best_near)) continue;
-    next->brick = static_cast<std::uint32_t>(base + static_cast<std::size_t>(b));
-    next->opaque = 0;
+void brick_row(const BrickRow<edge>& row, Line<edge>& line, std::size_t base, std::vector<BrickCover>& out) {
+  for (std::int64_t b = line.first(); b <= line.last(); ++b) {
+    const Squares<edge>& x = line.at(b);
+    if (!(x.least_near <= row.best_near)) continue;
+    BrickCover cover{static_cast<std::uint32_t>(base + static_cast<std::size_t>(b)), 0, 0};
     if (x.most_far < row.worst_far) {
-      next->touched = next->opaque = ~std::uint64_t{0};
-      ++next;
+      cover.touched = cover.opaque = ~std::uint64_t{0};
+      out.push_back(cover);
       continue;
     }
-    next->touched = bits_at_most<edge>(x.near.data(), row.near.data());
-    if (x.least_far < row.best_far) next->opaque = bits_below<edge>(x.far.data(), row.far.data());
-    next += next->touched != 0;
+    for (int k = row.first_block; k <= row.last_block; ++k) {
+      cover.touched |= std::uint64_t{compare_rows<edge, false>(x.near.data(), row.near[k].data())} << (16 * k);
+    }
+    if (x.least_far < row.best_far) {
+      for (int k = row.first_block; k <= row.last_block; ++k) {
+        cover.opaque |= std::uint64_t{compare_rows<edge, true>(x.far.data(), row.far[k].data())} << (16 * k);
+      }
+    }
+    if (cover.touched != 0) out.push_back(cover);
   }
-  out.resize(static_cast<std::size_t>(next - out.data()));
 }
 
 /// Cells whose own half diagonal is not below the radius are never inside.
@@ -118,57 +135,76 @@ bool may_be_opaque(const Lattice& lattice, double radius) {
   return 4.0 * radius * radius > lattice.dimension() * lattice.cell() * lattice.cell();
 }
 
-void disc(const Lattice& lattice, const Vec3& centre, double radius, double margin, bool with_opaque, Cover& out) {
+struct Ball {
+  Vec3 centre;
+  double radius, margin;
+  bool opaque;  ///< whether opaque cells are asked for and possible
+
+  Range touched(const Axis& axis, int k, bool& outside) const {
+    return axis.touched(centre[k] - (radius + margin), centre[k] + (radius + margin), outside);
+  }
+};
+
+void disc(const Lattice& lattice, const Ball& ball, Cover& out) {
   constexpr int edge = 8;
   const Axis ax(lattice, 0), ay(lattice, 1);
-  const double reach = radius + margin;
-  const Range x = ax.touched(centre.x - reach, centre.x + reach, out.outside);
-  const Range y = ay.touched(centre.y - reach, centre.y + reach, out.outside);
+  const Range x = ball.touched(ax, 0, out.outside), y = ball.touched(ay, 1, out.outside);
   if (x.empty() || y.empty()) return;
-  Columns<edge> columns(ax, x, centre.x, margin);
-  const double r2 = radius * radius;
+  Line<edge> line(ax, x, ball.centre.x, ball.margin);
+  const double r2 = ball.radius * ball.radius;
+  const DoublePair squared = DoublePair::both(r2);
   for (std::int64_t by = y.first / edge; by <= y.last / edge; ++by) {
     Squares<edge> sy;
-    sy.fill(ay, by, y, centre.y, margin);
+    sy.fill(ay, by, ball.centre.y, ball.margin);
     BrickRow<edge> row;
-    for (int j = 0; j < edge; ++j) {
-      row.near[j] = r2 - sy.near[j];
-      row.far[j] = r2 - sy.far[j];
+    row.first_block = static_cast<int>(std::max<std::int64_t>(y.first - by * edge, 0)) / 2;
+    row.last_block = static_cast<int>(std::min<std::int64_t>(y.last - by * edge, edge - 1)) / 2;
+    for (int k = row.first_block; k <= row.last_block; ++k) {
+      row.near[k][0] = squared - sy.near[k];
+      row.far[k][0] = squared - sy.far[k];
     }
-    row.best_near = r2 - sy.nearest;
-    row.best_far = with_opaque ? r2 - sy.least_far : -infinite;
-    row.worst_far = with_opaque ? r2 - sy.most_far : -infinite;
-    brick_row<edge>(row, columns, {x.first / edge, x.last / edge}, lattice.brick_index({0, by, 0}), out.bricks);
+    row.best_near = r2 - sy.least_near;
+    row.best_far = ball.opaque ? r2 - sy.least_far : -infinite;
+    row.worst_far = ball.opaque ? r2 - sy.most_far : -infinite;
+    brick_row<edge>(row, line, lattice.brick_index({0, by, 0}), out.bricks);
   }
 }
 
-void sphere(const Lattice& lattice, const Vec3& centre, double radius, double margin, bool with_opaque, Cover& out) {
+/// What is left of r^2 for the rows of one brick row of a sphere.
+void set_row(BrickRow<4>& row, const Squares<4>& sy, const Squares<4>& sz, double r2, bool opaque) {
+  row.best_near = r2 - (sy.least_near + sz.least_near);
+  row.best_far = opaque ? r2 - (sy.least_far + sz.least_far) : -infinite;
+  row.worst_far = opaque ? r2 - (sy.most_far + sz.most_far) : -infinite;
+  const DoublePair squared = DoublePair::both(r2);
+  for (int k = row.first_block; k <= row.last_block; ++k) {
+    const DoublePair near = sz.near[k / 2], far = sz.far[k / 2];
+    const DoublePair z_near = DoublePair::both(k % 2 == 0 ? near.first() : near.second());
+    for (int p = 0; p < 2; ++p) row.near[k][p] = squared - (sy.near[p] + z_near);
+    if (!(row.best_far > 0.0)) continue;
+    const DoublePair z_far = DoublePair::both(k % 2 == 0 ? far.first() : far.second());
+    for (int p = 0; p < 2; ++p) row.far[k][p] = squared - (sy.far[p] + z_far);
+  }
+}
+
+void sphere(const Lattice& lattice, const Ball& ball, Cover& out) {
   constexpr int edge = 4;
   const Axis ax(lattice, 0), ay(lattice, 1), az(lattice, 2);
-  const double reach = radius + margin;
-  const Range x = ax.touched(centre.x - reach, centre.x + reach, out.outside);
-  const Range y = ay.touched(centre.y - reach, centre.y + reach, out.outside);
-  const Range z = az.touched(centre.z - reach, centre.z + reach, out.outside);
+  const Range x = ball.touched(ax, 0, out.outside), y = ball.touched(ay, 1, out.outside);
+  const Range z = ball.touched(az, 2, out.outside);
   if (x.empty() || y.empty() || z.empty()) return;
-  Columns<edge> columns(ax, x, centre.x, margin), rows(ay, y, centre.y, margin);
-  const double r2 = radius * radius;
+  Line<edge> line(ax, x, ball.centre.x, ball.margin), rows(ay, y, ball.centre.y, ball.margin);
+  const double r2 = ball.radius * ball.radius;
   for (std::int64_t bz = z.first / edge; bz <= z.last / edge; ++bz) {
     Squares<edge> sz;
-    sz.fill(az, bz, z, centre.z, margin);
-    for (std::int64_t by = y.first / edge; by <= y.last / edge; ++by) {
+    sz.fill(az, bz, ball.centre.z, ball.margin);
+    BrickRow<edge> row;
+    row.first_block = static_cast<int>(std::max<std::int64_t>(z.first - bz * edge, 0));
+    row.last_block = static_cast<int>(std::min<std::int64_t>(z.last - bz * edge, edge - 1));
+    for (std::int64_t by = rows.first(); by <= rows.last(); ++by) {
       const Squares<edge>& sy = rows.at(by);
-      BrickRow<edge> row;
-      row.best_near = r2 - (sy.nearest + sz.nearest);
-      if (!(row.best_near >= 0.0)) continue;
-      row.best_far = with_opaque ? r2 - (sy.least_far + sz.least_far) : -infinite;
-      row.worst_far = with_opaque ? r2 - (sy.most_far + sz.most_far) : -infinite;
-      for (int k = 0; k < edge; ++k) {
-        for (int j = 0; j < edge; ++j) {
-          row.near[k * edge + j] = r2 - (sy.near[j] + sz.near[k]);
-          row.far[k * edge + j] = r2 - (sy.far[j] + sz.far[k]);
-        }
-      }
-      brick_row<edge>(row, columns, {x.first / edge, x.last / edge}, lattice.brick_index({0, by, bz}), out.bricks);
+      if (!(sy.least_near + sz.least_near <= r2)) continue;
+      set_row(row, sy, sz, r2, ball.opaque);
+      brick_row<edge>(row, line, lattice.brick_index({0, by, bz}), out.bricks);
     }
   }
 }
@@ -179,11 +215,11 @@ void ball(const Lattice& lattice, const Vec3& centre, double radius, bool with_o
   const bool flat = lattice.dimension() == 2;
   const double across = std::max(std::abs(centre.x), std::abs(centre.y));
   const double margin = lattice.margin((flat ? across : std::max(across, std::abs(centre.z))) + radius);
-  with_opaque = with_opaque && may_be_opaque(lattice, radius);
+  const Ball ball{centre, radius, margin, with_opaque && may_be_opaque(lattice, radius)};
   if (flat) {
-    disc(lattice, centre, radius, margin, with_opaque, out);
+    disc(lattice, ball, out);
   } else {
-    sphere(lattice, centre, radius, margin, with_opaque, out);
+    sphere(lattice, ball, out);
   }
 }
 
