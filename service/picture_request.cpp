@@ -27,8 +27,8 @@ std::string title_of(const Culler& culler, const PictureRequest& request) {
 }
 
 std::string subtitle_of(const std::string& label, const Replay& replay, const Answer& answer, const Lattice& lattice) {
-  std::string text =
-      label + ", t = " + number_text(replay.time()) + " s: " + counted(answer.visible.size(), "object") + " reported";
+  std::string text = label + ", t = " + number_text(replay.time(), 4) +
+                     " s: " + counted(answer.visible.size(), "object") + " reported";
   if (answer.in_view > 0) text += " of " + std::to_string(answer.in_view) + " in the view volume";
   text += "; cells of " + number_text(lattice.cell()) + " m";
   if (lattice.dimension() == 3) text += "; slice through the viewer's height";

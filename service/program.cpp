@@ -7,9 +7,8 @@
 #include <new>
 #include <string>
 
-#include <tbb/global_control.h>
-
 #include <CLI/CLI.hpp>
+#include <tbb/global_control.h>
 
 #include "gridcull/core/error.h"
 #include "gridcull/service/commands.h"
