@@ -10,6 +10,11 @@
 #include "gridcull/grid/engine_state.h"
 
 namespace gridcull {
+namespace {
+
+constexpr std::uint8_t patience = 8;  // frames
+
+}  // namespace
 
 void GridEngine::State::check(double time, std::span<const View> views) const {
   if (!std::isfinite(time)) throw Error(ErrorCode::bad_frame, "time: expected a finite number of seconds");
@@ -30,7 +35,8 @@ void GridEngine::State::settle_jumps(double time) {
     const double distance = glm::length(state.pose.position - p.from);
     const bool too_far = started && distance > state.max_speed * step * (1.0 + 1e-9);
     bool escaped = false;
-    if (state.place == Place::hidden) {
+    // A volume past its term is renewed in expire(): leaving it is no jump (the pull rule has none there either).
+    if (state.place == Place::hidden && expiries.expiry(p.slot) >= time) {
       const auto& ball = world.tbv.ball(p.slot);
       escaped = glm::length(state.pose.position - ball.centre) + state.shape->reach() > ball.radius * (1.0 + 1e-12);
     }
@@ -136,8 +142,10 @@ void GridEngine::State::merge(std::size_t views) {
       ++stats.tbv_revealed;
       if (state.max_speed > 0.0) state.term = terms.shorter(state.term, state.max_speed);
       activate(slot);
-      // Seen: in I from now on. Not seen by anyone: hide_unseen() gives it a new volume.
-      if (seen[slot]) cover(slot);
+      // In I from now on. Not seen by anyone, it stays there for a few frames: near the border of what is
+      // visible a new volume would be revealed at once, and that costs more than a discretisation.
+      if (!seen[slot]) state.patience = patience;
+      cover(slot);
     }
   }
 }
@@ -146,7 +154,13 @@ void GridEngine::State::merge(std::size_t views) {
 void GridEngine::State::hide_unseen() {
   std::size_t kept = 0;
   for (const Slot slot : active) {
-    const bool keep = options.tbv == TbvMode::off || seen[slot] || !world.objects[slot].may_hide();
+    ObjectState& state = world.objects[slot];
+    const bool keep = options.tbv == TbvMode::off || seen[slot] || !state.may_hide() || state.patience > 0;
+    if (seen[slot]) {
+      state.patience = 0;
+    } else if (state.patience > 0) {
+      --state.patience;
+    }
     seen[slot] = 0;
     if (keep) {
       active[kept++] = slot;

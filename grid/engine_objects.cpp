@@ -67,7 +67,9 @@ void GridEngine::State::remove(Slot slot) {
 
 void GridEngine::State::move(Slot slot, const Pose& pose) {
   ObjectState& state = world.objects[slot];
-  if (state.moves() && state.max_speed >= 0.0 && pushed_frame[slot] != world.frame + 1) {
+  // A moving object that waits was added since the last frame: it has no place there to have jumped from.
+  const bool has_past = state.moves() && state.place != Place::waiting;
+  if (has_past && state.max_speed >= 0.0 && pushed_frame[slot] != world.frame + 1) {
     pushed_frame[slot] = world.frame + 1;
     pushed.push_back({slot, state.pose.position});
   }
