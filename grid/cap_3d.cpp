@@ -10,9 +10,9 @@
 // between the two cells lies within half a cell of (k, u k / n, v k / n) in each of the three axes, hence in
 // those four cells. Holes need no care: a footprint that meets one is not in C.
 //
-// For a run [a, b] of cells that rows r and r + 1 both have, these are the cells with r <= v k / n <= r + 1
-// and a <= u k / n <= b: one run of bits in each of a few rows. Cost: two divisions a run and plane, and one
-// word or two a row.
+// A block is rows r .. s, s > r, that all have the cells a .. b along u. What it hides are the cells with
+// r <= v k / n <= s and a <= u k / n <= b: one run of bits in each of a few rows. Cost: four additions a block
+// and plane, and a word or two a row.
 #include <algorithm>
 
 #include "gridcull/grid/division.h"
@@ -22,8 +22,9 @@ namespace gridcull {
 
 void Face3D::occlude(std::int64_t k, WorkCounts& work) {
   if (k == depth_.high || !find_caps(k)) return;
-  list_runs();
-  extrude(k, work);
+  list_blocks();
+  work.occluders += blocks_.size();
+  for (const Block& block : blocks_) work.rasters += extrude(block, k);
 }
 
 bool Face3D::find_caps(std::int64_t k) {
@@ -37,11 +38,13 @@ bool Face3D::find_caps(std::int64_t k) {
              w1 = static_cast<std::size_t>(bit(grown_.u.high)) / 64;
   solid_.assign(rows * words_, 0);
   cap_.assign(rows * words_, 0);
+  seeds_.assign(rows * words_, 0);
+  near_.assign(words_, 0);
   std::uint64_t any = 0;
   for (std::size_t r = 0; r < rows; ++r) {
     const std::int64_t v = grown_.v.low + static_cast<std::int64_t>(r);
     std::uint64_t* solid = solid_.data() + r * words_;
-    std::uint64_t* cap = cap_.data() + r * words_;
+    std::uint64_t* cap = seeds_.data() + r * words_;
     gather_opaque(k, v, w0, w1, solid);
     const std::uint64_t* found = found_.data() + static_cast<std::size_t>(v - whole.v.low) * words_;
     const std::uint64_t* hidden = row(k, v);
@@ -58,83 +61,124 @@ bool Face3D::find_caps(std::int64_t k) {
   return true;
 }
 
+// A cap grows from its opaque visible cells to all opaque or hidden cells joined to them along u, in their own
+// rows and `reach` rows to both sides.
 void Face3D::grow_caps(std::int64_t rows) {
-  // Flood fill over face-connected cells, a row at a time, down and up until nothing changes.
-  const auto fill = [&](std::int64_t r, std::int64_t from) {
-    std::uint64_t* cap = cap_.data() + static_cast<std::size_t>(r) * words_;
-    const std::uint64_t* solid = solid_.data() + static_cast<std::size_t>(r) * words_;
-    const std::uint64_t* beside =
-        from < 0 || from >= rows ? nullptr : cap_.data() + static_cast<std::size_t>(from) * words_;
-    bool changed = false;
-    std::uint64_t seeds = 0;
-    for (std::size_t w = 0; w < words_; ++w) {
-      if (beside != nullptr) cap[w] |= beside[w] & solid[w];
-      seeds |= cap[w];
+  const auto seeds_near = [&](std::int64_t r, std::size_t w) {
+    std::uint64_t near = 0;
+    for (std::int64_t i = std::max<std::int64_t>(0, r - reach); i <= std::min(rows - 1, r + reach); ++i) {
+      near |= seeds_[static_cast<std::size_t>(i) * words_ + w];
     }
-    if (seeds == 0) return false;
-    for_each_run({solid, words_}, [&](int first, int last) {
-      bool some = false, all = true;
-      for (int w = first >> 6; w <= last >> 6; ++w) {
-        const std::uint64_t mask = bit_range(w == first >> 6 ? first & 63 : 0, w == last >> 6 ? last & 63 : 63);
-        some = some || (cap[w] & mask) != 0;
-        all = all && (cap[w] & mask) == mask;
-      }
-      if (!some || all) return;
-      set_run(cap, first, last);
-      changed = true;
-    });
-    return changed;
+    return near;
   };
-  for (std::int64_t r = 0; r < rows; ++r) fill(r, r - 1);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::int64_t r = rows - 1; r >= 0; --r) changed = fill(r, r + 1) || changed;
-    if (!changed) break;
-    changed = false;
-    for (std::int64_t r = 0; r < rows; ++r) changed = fill(r, r - 1) || changed;
+  for (std::int64_t r = 0; r < rows; ++r) {
+    const std::uint64_t* solid = solid_.data() + static_cast<std::size_t>(r) * words_;
+    std::uint64_t* cap = cap_.data() + static_cast<std::size_t>(r) * words_;
+    std::uint64_t any = 0;
+    for (std::size_t w = 0; w < words_; ++w) any |= near_[w] = seeds_near(r, w) & solid[w];
+    if (any == 0) continue;
+    for_each_run({solid, words_}, [&](int first, int last) {
+      std::uint64_t met = 0;
+      for (int w = first >> 6; w <= last >> 6; ++w) {
+        met |= near_[static_cast<std::size_t>(w)] &
+               bit_range(w == first >> 6 ? first & 63 : 0, w == last >> 6 ? last & 63 : 63);
+      }
+      if (met != 0) set_run(cap, first, last);
+    });
   }
 }
 
-void Face3D::list_runs() {
-  runs_.clear();
-  axis_runs_.clear();
+// A single column or row hides whole cells only on the axis itself, where u k / n or v k / n stays whole.
+void Face3D::list_blocks() {
+  blocks_.clear();
+  open_ = 0;
   const std::int64_t rows = grown_.v.high - grown_.v.low + 1;
-  solid_.resize(std::max(solid_.size(), words_));
+  std::uint64_t* both = solid_.data();  // its contents are no longer needed
   for (std::int64_t r = 0; r < rows; ++r) {
     const std::uint64_t* here = cap_.data() + static_cast<std::size_t>(r) * words_;
     const std::int64_t v = grown_.v.low + r;
-    // A single column or row hides whole cells only on the axis itself, where u k / n or v k / n stays whole.
-    const auto keep = [&](std::vector<Run>& runs) {
-      return [&](int first, int last) {
+    if (v == 0) {
+      const std::size_t before = blocks_.size();
+      for_each_run({here, words_}, [&](int first, int last) {
         const std::int64_t a = u_base_ + first, b = u_base_ + last;
-        if (a < b || a == 0) runs.push_back({v, a, b});
-      };
-    };
-    if (v == 0) for_each_run({here, words_}, keep(axis_runs_));
+        if (a < b || a == 0) blocks_.insert(blocks_.begin() + static_cast<std::ptrdiff_t>(open_), {0, 0, a, b});
+      });
+      open_ += blocks_.size() - before;
+    }
     if (r + 1 == rows) break;
-    std::uint64_t* both = solid_.data();  // its contents are no longer needed
     std::uint64_t any = 0;
     for (std::size_t w = 0; w < words_; ++w) any |= both[w] = here[w] & here[w + words_];
-    if (any != 0) for_each_run({both, words_}, keep(runs_));
+    if (any != 0)
+      for_each_run({both, words_}, [&](int first, int last) { add_run(v, u_base_ + first, u_base_ + last); });
+    // Blocks that did not grow by this row are closed: move the open ones to the back.
+    const auto closed = [&](const Block& block) { return block.v_high != v + 1; };
+    open_ = static_cast<std::size_t>(
+        std::stable_partition(blocks_.begin() + static_cast<std::ptrdiff_t>(open_), blocks_.end(), closed) -
+        blocks_.begin());
   }
 }
 
-void Face3D::extrude(std::int64_t k, WorkCounts& work) {
-  if (runs_.empty() && axis_runs_.empty()) return;
-  ++work.occluders;
-  for (std::int64_t n = k + 1; n <= depth_.high; ++n) {
-    const Patch plane = plane_patch(n);
-    const auto mark = [&](const Run& run, const CellRange& rows) {
-      const CellRange v = intersect(rows, plane.v);
-      const CellRange u = intersect({ceil_div(run.low * n, k), floor_div(run.high * n, k)}, plane.u);
-      if (u.empty() || v.empty()) return;
-      std::uint64_t* out = row(n, v.low);
-      for (std::int64_t i = v.low; i <= v.high; ++i, out += words_) set_run(out, bit(u.low), bit(u.high));
-      work.rasters += static_cast<std::uint64_t>(v.high - v.low + 1);
-    };
-    for (const Run& run : runs_) mark(run, {ceil_div(run.row * n, k), floor_div((run.row + 1) * n, k)});
-    for (const Run& run : axis_runs_) mark(run, {0, 0});
+void Face3D::add_run(std::int64_t v, std::int64_t low, std::int64_t high) {
+  if (low == high && low != 0) return;
+  for (std::size_t i = open_; i < blocks_.size(); ++i) {
+    Block& block = blocks_[i];
+    if (block.v_high == v && block.low == low && block.high == high) {
+      block.v_high = v + 1;
+      return;
+    }
   }
+  blocks_.push_back({v, v + 1, low, high});
+}
+
+namespace {
+
+/// ceil or floor of value * n / k for n = k + 1, k + 2, ..., a step at a time, without dividing.
+class Scaled {
+ public:
+  /// ceil: round up; else down.
+  Scaled(std::int64_t value, std::int64_t k, bool ceil) : k_(k), at_(value), ceil_(ceil) {
+    step_ = floor_div(value, k);
+    part_ = value - step_ * k;
+  }
+  std::int64_t next() {
+    at_ += step_;
+    rest_ += part_;
+    if (rest_ >= k_) {
+      rest_ -= k_;
+      ++at_;
+    }
+    return at_ + (ceil_ && rest_ > 0 ? 1 : 0);
+  }
+
+ private:
+  std::int64_t k_, at_, step_, part_, rest_ = 0;
+  bool ceil_;
+};
+
+}  // namespace
+
+std::uint64_t Face3D::extrude(const Block& block, std::int64_t k) {
+  Scaled u_low(block.low, k, true), u_high(block.high, k, false), v_low(block.v_low, k, true),
+      v_high(block.v_high, k, false);
+  std::uint64_t rows = 0;
+  for (std::int64_t n = k + 1; n <= depth_.high; ++n) {
+    const CellRange u = intersect({u_low.next(), u_high.next()}, u_), v = intersect({v_low.next(), v_high.next()}, v_);
+    // |u| and |v| stay within n by themselves: they are at most k in plane k. What has left the window on a
+    // side stays out.
+    if (u.empty() || v.empty()) break;
+    std::uint64_t* out = hidden_.data() + plane_[static_cast<std::size_t>(n - depth_.low)] +
+                         static_cast<std::size_t>(v.low - std::max(v_.low, -n)) * words_;
+    const int first = bit(u.low), last = bit(u.high);
+    if (first >> 6 == last >> 6) {
+      const std::uint64_t mask = bit_range(first & 63, last & 63);
+      out += first >> 6;
+      for (std::int64_t i = v.low; i <= v.high; ++i, out += words_) *out |= mask;
+    } else {
+      for (std::int64_t i = v.low; i <= v.high; ++i, out += words_) set_run(out, first, last);
+    }
+    rows += static_cast<std::uint64_t>(v.high - v.low + 1);
+  }
+  return rows;
 }
 
 }  // namespace gridcull

@@ -41,8 +41,9 @@ class Face3D {
   }
 
  private:
-  struct Run {
-    std::int64_t row, low, high;  // viewer-relative; low, high along u
+  /// Part of a cap: every row v_low .. v_high has all cells low .. high along u. Viewer-relative.
+  struct Block {
+    std::int64_t v_low, v_high, low, high;
   };
   /// Rectangle of cells in a plane, viewer-relative.
   struct Patch {
@@ -63,8 +64,10 @@ class Face3D {
   void gather_opaque(std::int64_t k, std::int64_t v, std::size_t w0, std::size_t w1, std::uint64_t* out) const;
   bool find_caps(std::int64_t k);
   void grow_caps(std::int64_t rows);
-  void list_runs();
-  void extrude(std::int64_t k, WorkCounts& work);
+  void list_blocks();
+  void add_run(std::int64_t v, std::int64_t low, std::int64_t high);
+  /// Marks the cells behind a block of plane k as hidden. Returns the number of rows written.
+  std::uint64_t extrude(const Block& block, std::int64_t k);
   int bit(std::int64_t u) const { return static_cast<int>(u - u_base_); }
 
   ViewGrid* grid_ = nullptr;
@@ -83,9 +86,14 @@ class Face3D {
   Patch grown_;                       // patch of the plane in hand that caps may grow in
   std::vector<std::uint64_t> found_;  // visible cells, rows of plane_patch(k)
   std::vector<std::uint64_t> solid_;  // opaque or hidden cells, rows of grown_
-  std::vector<std::uint64_t> cap_;    // caps, rows of grown_
-  std::vector<Run> runs_;             // common runs of two neighbouring cap rows
-  std::vector<Run> axis_runs_;        // runs of row v = 0
+  std::vector<std::uint64_t> seeds_;  // opaque visible cells, rows of grown_
+  std::vector<std::uint64_t> near_;   // seeds of one row and those beside it
+  /// Rows beside an opaque visible cell that its cap may take. Caps without limit cost 2.5 times the rows for 0.5 %
+  /// fewer objects (5,000 spheres, 1 m cells): what lies farther off was hidden before, by the caps that hid it.
+  static constexpr std::int64_t reach = 2;
+  std::vector<std::uint64_t> cap_;  // caps, rows of grown_
+  std::vector<Block> blocks_;       // of the caps in hand
+  std::size_t open_ = 0;            // blocks_ from here on may grow by the next row
 };
 
 template <class F>

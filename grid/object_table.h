@@ -29,6 +29,7 @@ struct ObjectState {
   bool outside = false;          ///< active: reaches beyond the lattice; hidden: its volume does
   bool hollow = false;           ///< hidden: its volume is entered as an outline
   bool jumped = false;           ///< announced for the frame to come
+  std::uint8_t patience = 0;     ///< active: frames it may still be unseen before it is hidden again
   std::uint32_t entries = none;  ///< chain in the identifier matrix
   std::uint32_t renewals = 0;    ///< volumes given so far, for the jitter
   std::uint64_t read_frame = 0;  ///< frame in which the pose was last read

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "gridcull/grid/ball_bits.h"
+#include <limits>
 
 namespace gridcull {
 
 TbvMatrix::TbvMatrix(const Lattice& lattice) : lattice_(lattice), counts_(lattice.brick_count(), 0) {
-  // Level 0 is two bricks wide; the last one holds the whole lattice in one cell.
+  // Level 0 is a brick wide; the last one holds the whole lattice in one cell.
   const Cell n = lattice.cells();
-  for (int shift = lattice.brick_shift() + 1;; ++shift) {
+  for (int shift = lattice.brick_shift();; ++shift) {
     Level level;
     level.shift = shift;
     level.side = lattice.cell() * std::ldexp(1.0, shift);
@@ -34,8 +33,8 @@ bool TbvMatrix::fits(const Ball& ball) const {
 std::uint32_t TbvMatrix::level_for(double radius) const {
   std::uint32_t level = 0;
   // A ball that fits is no wider than the lattice, so the last level always takes it. The margin keeps the
-  // reach below half a side in spite of rounded cell boundaries.
-  while (level + 1 < levels_.size() && levels_[level].side < 2.0 * (radius + 4.0 * lattice_.margin())) ++level;
+  // reach below a side in spite of rounded cell boundaries.
+  while (level + 1 < levels_.size() && levels_[level].side < radius + 4.0 * lattice_.margin()) ++level;
   return level;
 }
 
@@ -94,6 +93,14 @@ TbvMatrix::BrickLines TbvMatrix::lines_of(const Cell& corner) const {
     for (int i = 0; i <= lattice_.brick_edge(); ++i)
       lines.at[axis][static_cast<std::size_t>(i)] = lattice_.boundary(k, first[axis] + i);
   }
+  lines.low = Vec3(-std::numeric_limits<double>::infinity());
+  lines.high = Vec3(std::numeric_limits<double>::infinity());
+  // Twice the margin of the ball test, so that the filter never says no to what that would find.
+  for (int k = 0; k < lattice_.dimension(); ++k) {
+    const auto& at = lines.at[static_cast<std::size_t>(k)];
+    lines.low[k] = at[0] - 2.0 * lattice_.margin();
+    lines.high[k] = at[static_cast<std::size_t>(lattice_.brick_edge())] + 2.0 * lattice_.margin();
+  }
   return lines;
 }
 
@@ -107,18 +114,21 @@ bool TbvMatrix::ball_touches(const Ball& ball, const BrickLines& lines, std::uin
     const double gap = std::max({at[i] - c, c - at[i + 1], 0.0});
     return gap * gap;
   };
-  alignas(16) std::array<double, 8> squares{};
-  std::array<double, 16> limits{};
-  for (std::size_t i = 0; i < edge; ++i) squares[i] = square(0, i);
-  if (lattice_.dimension() == 2) {
-    for (std::size_t y = 0; y < 8; ++y) limits[y] = r * r - square(1, y);
-    return (covering::bits_at_most<8>(squares.data(), limits.data()) & bits) != 0;
+  std::array<double, 8> squares_x{}, squares_y{};
+  for (std::size_t i = 0; i < edge; ++i) squares_x[i] = square(0, i), squares_y[i] = square(1, i);
+  const std::size_t layers = lattice_.dimension() == 3 ? edge : 1;
+  const std::uint64_t row_mask = (std::uint64_t{1} << edge) - 1;
+  for (std::size_t z = 0; z < layers; ++z) {
+    const double rest = r * r - (layers > 1 ? square(2, z) : 0.0);
+    for (std::size_t y = 0; y < edge; ++y) {
+      const std::uint64_t row = (bits >> ((z * edge + y) * edge)) & row_mask;
+      if (row == 0) continue;
+      std::uint64_t met = 0;
+      for (std::size_t x = 0; x < edge; ++x) met |= std::uint64_t{squares_x[x] <= rest - squares_y[y]} << x;
+      if ((met & row) != 0) return true;
+    }
   }
-  for (std::size_t z = 0; z < 4; ++z) {
-    const double rest = r * r - square(2, z);
-    for (std::size_t y = 0; y < 4; ++y) limits[4 * z + y] = rest - square(1, y);
-  }
-  return (covering::bits_at_most<4>(squares.data(), limits.data()) & bits) != 0;
+  return false;
 }
 
 std::uint64_t TbvMatrix::matrix_bytes() const {

@@ -2,8 +2,8 @@
 // Gotsman 1999).
 //
 // The paper enters a volume's id into every cell that it spans. Here a volume is entered once, in the cell
-// of the level whose side is at least its diameter and that holds its centre ("loose": it reaches at most
-// half a side beyond), and every brick counts the volumes that may touch it. A brick that nobody's volume
+// of the level whose side is at least its radius and that holds its centre ("loose": it reaches at most a
+// side beyond), and every brick counts the volumes that may touch it. A brick that nobody's volume
 // may touch costs one load in the traversal; renewing a volume costs a few stores whatever its size.
 #pragma once
 
@@ -71,7 +71,16 @@ class TbvMatrix {
   /// Boundaries of a brick's cells along each axis, metres.
   struct BrickLines {
     std::array<std::array<double, 9>, 3> at;
+    Vec3 low, high;  // the brick's box, grown by the margin
   };
+  /// Cheap filter: whether the ball reaches the brick's box.
+  static bool near(const Ball& ball, const BrickLines& lines) {
+    const auto gap = [&](int k) {
+      return std::max({lines.low[k] - ball.centre[k], ball.centre[k] - lines.high[k], 0.0});
+    };
+    const double x = gap(0), y = gap(1), z = gap(2);
+    return x * x + y * y + z * z <= ball.radius * ball.radius;
+  }
   BrickLines lines_of(const Cell& corner) const;
   bool ball_touches(const Ball& ball, const BrickLines& lines, std::uint64_t bits) const;
 
@@ -91,8 +100,8 @@ std::uint64_t TbvMatrix::touching(std::size_t brick, std::uint64_t bits, W&& wan
   const std::int64_t edge = lattice_.brick_edge();
   for (const Level& level : levels_) {
     if (level.size == 0) continue;
-    // Level cells whose volumes may reach the brick: they reach half a side beyond their cell.
-    const std::int64_t reach = std::int64_t{1} << (level.shift - 1);
+    // Level cells whose volumes may reach the brick: they reach a side beyond their cell.
+    const std::int64_t reach = std::int64_t{1} << level.shift;
     Cell low, high;
     const auto span = [&](std::int64_t from, std::int64_t count, std::int64_t& l, std::int64_t& h) {
       l = std::max<std::int64_t>(0, (from - reach) >> level.shift);
@@ -107,7 +116,7 @@ std::uint64_t TbvMatrix::touching(std::size_t brick, std::uint64_t bits, W&& wan
           const auto cell = static_cast<std::size_t>((z * level.cells.y + y) * level.cells.x + x);
           for (std::uint32_t slot = level.heads[cell]; slot != none; slot = links_[slot].after) {
             ++looked;
-            if (wanted(slot) && ball_touches(balls_[slot], lines, bits)) f(slot);
+            if (near(balls_[slot], lines) && wanted(slot) && ball_touches(balls_[slot], lines, bits)) f(slot);
           }
         }
       }
