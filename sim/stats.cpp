@@ -16,15 +16,33 @@ double mean_of(std::uint64_t sum, std::uint64_t count) {
   return count == 0 ? 0.0 : static_cast<double>(sum) / static_cast<double>(count);
 }
 
+void append_value(std::string& out, std::string_view key, double value) {
+  append_key(out, key);
+  append_number(out, value);
+}
+
+void append_count(std::string& out, std::string_view key, std::uint64_t value) {
+  append_key(out, key);
+  append_integer(out, value);
+}
+
+void append_tbv(std::string& out, const Stats& stats) {
+  append_key(out, "tbv");
+  out += '{';
+  append_value(out, "active_mean", stats.tbv_active_mean);
+  append_count(out, "revealed", stats.tbv_revealed);
+  append_count(out, "expired", stats.tbv_expired);
+  append_count(out, "jumps", stats.jumps);
+  out += '}';
+}
+
 void append_spread(std::string& out, std::string_view key, const Spread& spread) {
   append_key(out, key);
   out += '{';
-  const std::array<std::pair<std::string_view, double>, 4> parts{
-      {{"median", spread.median}, {"mean", spread.mean}, {"p99", spread.p99}, {"max", spread.max}}};
-  for (const auto& [name, value] : parts) {
-    append_key(out, name);
-    append_number(out, value);
-  }
+  append_value(out, "median", spread.median);
+  append_value(out, "mean", spread.mean);
+  append_value(out, "p99", spread.p99);
+  append_value(out, "max", spread.max);
   out += '}';
 }
 
@@ -95,20 +113,12 @@ std::uint64_t peak_memory_bytes() {
 
 std::string stats_text(const Stats& stats) {
   std::string out = "{\"format\": \"gridcull.stats/1\"";
-  const auto number = [&](std::string_view key, double value) {
-    append_key(out, key);
-    append_number(out, value);
-  };
-  const auto integer = [&](std::string_view key, std::uint64_t value) {
-    append_key(out, key);
-    append_integer(out, value);
-  };
   append_key(out, "method");
   append_string(out, stats.method);
-  integer("threads", static_cast<std::uint64_t>(stats.threads));
-  integer("frames", stats.frames);
-  integer("queries", stats.queries);
-  number("cell", stats.cell);
+  append_count(out, "threads", static_cast<std::uint64_t>(stats.threads));
+  append_count(out, "frames", stats.frames);
+  append_count(out, "queries", stats.queries);
+  append_value(out, "cell", stats.cell);
   append_key(out, "cells");
   out += '[';
   for (const std::int64_t cells : stats.cells) {
@@ -123,17 +133,11 @@ std::string stats_text(const Stats& stats) {
   append_spread(out, "total", stats.total_us);
   out += "},\n  \"pvs_mean\": ";
   append_number(out, stats.pvs_mean);
-  number("in_view_mean", stats.in_view_mean);
-  number("positions_read_mean", stats.positions_read_mean);
-  append_key(out, "tbv");
-  out += '{';
-  number("active_mean", stats.tbv_active_mean);
-  integer("revealed", stats.tbv_revealed);
-  integer("expired", stats.tbv_expired);
-  integer("jumps", stats.jumps);
-  out += '}';
-  number("cells_visited_mean", stats.cells_visited_mean);
-  integer("peak_memory_bytes", stats.peak_memory_bytes);
+  append_value(out, "in_view_mean", stats.in_view_mean);
+  append_value(out, "positions_read_mean", stats.positions_read_mean);
+  append_tbv(out, stats);
+  append_value(out, "cells_visited_mean", stats.cells_visited_mean);
+  append_count(out, "peak_memory_bytes", stats.peak_memory_bytes);
   append_key(out, "pvs_hash");
   append_string(out, hex(stats.pvs_hash));
   return out + "}\n";

@@ -1,6 +1,7 @@
 // Bad scenes: each gives one line with file and pointer, and nothing is taken.
 #include <doctest/doctest.h>
 
+#include "gridcull/sim/random.h"
 #include "gridcull/sim/scene.h"
 #include "sim_helpers.h"
 
@@ -165,6 +166,38 @@ TEST_CASE("text that is no scene at all") {
   CHECK(said(std::string(1'000'000, '['), ErrorCode::bad_message) ==
         "x: expected JSON nested at most 32 deep, found more");
   CHECK(said("1e999", ErrorCode::bad_scene) == "x: /: expected a finite number, found '1e999'");
+}
+
+TEST_CASE("whatever the bytes, a scene is read or refused with one line") {
+  // Random edits of good scenes; what is read must read back as itself.
+  const std::string alphabet = "{}[]\",:0123456789.-+eE \n\\tfn/\xff";
+  std::size_t taken = 0;
+  for (std::uint64_t seed = 1; seed <= 6000; ++seed) {
+    Random random(seed);
+    std::string text = seed % 2 == 0 ? flat : solid;
+    for (std::uint32_t edits = 1 + random.below(3); edits > 0; --edits) {
+      const std::size_t at = random.below(static_cast<std::uint32_t>(text.size()));
+      const std::size_t from = random.below(static_cast<std::uint32_t>(text.size()));
+      switch (random.below(4)) {
+        case 0: text[at] = alphabet[random.below(static_cast<std::uint32_t>(alphabet.size()))]; break;
+        case 1: text.erase(at, random.below(6)); break;
+        case 2: text.insert(at, std::string(text, from, random.below(20))); break;
+        default: text.insert(at, 1, alphabet[random.below(static_cast<std::uint32_t>(alphabet.size()))]);
+      }
+    }
+    CAPTURE(seed);
+    try {
+      const std::string written = scene_text(parse_scene(text, "x"));
+      CHECK(scene_text(parse_scene(written, "y")) == written);
+      ++taken;
+    } catch (const Error& fault) {
+      const std::string line = fault.what();
+      CHECK(line.starts_with("x: "));
+      CHECK_FALSE(holds(line, "\n"));
+    }
+  }
+  CHECK(taken > 100);
+  CHECK(taken < 5900);
 }
 
 TEST_CASE("a scene file that is not there, and one that cannot be written") {
