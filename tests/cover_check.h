@@ -77,6 +77,22 @@ inline Findings compare(const Lattice& lattice, const Shape& shape, const Pose& 
   return f;
 }
 
+/// Whether the shape meets the space beyond the lattice, 10 km deep, its boundary moved outwards by `gap`.
+inline bool reaches_beyond(const Lattice& lattice, const Shape& shape, const Pose& pose, double gap) {
+  const cover_truth::Truth truth(shape, pose);
+  const Bounds inner = lattice.box();
+  const bool flat = lattice.dimension() == 2;
+  const Vec3 deep(1e4, 1e4, flat ? 0.0 : 1e4);
+  const cover_truth::Box outer{inner.min - deep, inner.max + deep};
+  for (int k = 0; k < lattice.dimension(); ++k) {
+    cover_truth::Box below = outer, above = outer;
+    below.high[k] = inner.min[k] - gap;
+    above.low[k] = inner.max[k] + gap;
+    if (truth.judge(below).touches || truth.judge(above).touches) return true;
+  }
+  return false;
+}
+
 /// Random numbers by seed, the same on every machine.
 class Random {
  public:

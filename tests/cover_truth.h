@@ -166,14 +166,16 @@ inline Verdict convex(const std::vector<Side>& sides, const std::vector<std::vec
 /// Sides (in the plane) of the convex hull of points; brute force over pairs.
 inline std::vector<Side> planar_hull(const std::vector<Vec2>& p) {
   std::vector<Side> sides;
+  double slack = 1e-12;
+  for (const Vec2& q : p) slack = std::fmax(slack, 1e-14 * (std::abs(q.x) + std::abs(q.y)));
   for (const Vec2& a : p) {
     for (const Vec2& b : p) {
       Vec2 n(a.y - b.y, b.x - a.x);
       const double length = glm::length(n);
-      if (length < 1e-12) continue;
+      if (length <= slack) continue;
       n /= length;
       bool all = true;
-      for (const Vec2& q : p) all = all && glm::dot(n, q - a) >= -1e-12;
+      for (const Vec2& q : p) all = all && glm::dot(n, q - a) >= -slack;
       if (all) sides.push_back({{n.x, n.y, 0}, glm::dot(n, a)});
     }
   }

@@ -89,7 +89,9 @@ TEST_CASE("2D covers hold every touched cell and only opaque cells, and no other
     opaque += f.opaque;
     INFO("seed ", seed, ", ", name_of(shape), ": ", f.text());
     CHECK(f.safe());
+    if (cover_check::reaches_beyond(lattice, shape, pose, tolerance)) CHECK(cover.outside);
     CHECK(f.tight());
+    if (cover.outside) CHECK(cover_check::reaches_beyond(lattice, shape, pose, -tolerance));
     if (is_thin(shape)) CHECK(f.opaque == 0);
   }
   CHECK(touched > 100000);

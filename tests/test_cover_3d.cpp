@@ -92,7 +92,9 @@ Totals run(std::uint64_t first_seed, int count, const Make& make, const Exact& e
     totals.opaque += f.opaque;
     INFO("seed ", seed, ", ", name_of(shape), ": ", f.text());
     CHECK(f.safe());
+    if (cover_check::reaches_beyond(lattice, shape, pose, tolerance)) CHECK(cover.outside);
     if (exact(pose)) CHECK(f.tight());
+    if (exact(pose) && cover.outside) CHECK(cover_check::reaches_beyond(lattice, shape, pose, -tolerance));
     if (is_thin(shape)) CHECK(f.opaque == 0);
   }
   return totals;
