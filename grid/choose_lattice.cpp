@@ -90,9 +90,11 @@ void choose_cell(int dimension, std::span<const Object> objects, const Vec3& ext
   }
 }
 
+/// Whole cells around the bounds, moved by a 1024th of a cell.
 void round_outward(int dimension, double cell, Bounds& bounds) {
+  const double beyond = (1.0 - 1.0 / 1024.0) * cell;
   for (int axis = 0; axis < dimension; ++axis) {
-    bounds.min[axis] = std::floor(bounds.min[axis] / cell) * cell;
+    bounds.min[axis] = std::floor(bounds.min[axis] / cell) * cell - beyond;
     bounds.max[axis] = std::ceil(bounds.max[axis] / cell) * cell;
   }
 }
@@ -169,7 +171,7 @@ LatticeChoice choose_lattice(int dimension, std::span<const Object> objects, std
   } else {
     choose_cell(dimension, objects, choice.bounds.size(), choice);
   }
-  if (!bounds && choice.cell > 0.0) round_outward(dimension, choice.cell, choice.bounds);
+  if (!bounds && !empty && choice.cell > 0.0) round_outward(dimension, choice.cell, choice.bounds);
   return choice;
 }
 

@@ -26,8 +26,10 @@ struct LatticeChoice {
 /// whole cells at any heading; where nothing occludes, of all objects; rounded down to 1, 1.5, 2, 3, 4, 5, 6
 /// or 8 times a power of ten, then made larger until there are at most `most_cells`. Cost grows with the
 /// number of cells in view, accuracy with their number in an occluder; a quarter is where both are moderate.
-/// The rule for the bounds: the box of all objects, rounded outward to whole cells. Objects and viewers may
-/// leave it; they are answered correctly there, only not hidden by the grid.
+/// The rule for the bounds: the box of all objects, rounded outward to whole cells and moved by a 1024th of a
+/// cell, because faces at round coordinates (the ground) would lie on cell boundaries, and a cell that touches
+/// a face from inside does not lie wholly inside. Objects and viewers may leave the bounds; they are answered
+/// correctly there, only not hidden by the grid.
 LatticeChoice choose_lattice(int dimension, std::span<const Object> objects, std::optional<Bounds> bounds,
                              std::optional<double> cell, const Bounds& ways = {});
 

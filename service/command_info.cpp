@@ -29,7 +29,8 @@ std::string contents(const std::vector<Object>& objects) {
     ++(object.is_static ? counts.first : counts.second);
     if (object.occluder) ++occluders;
   }
-  std::string text = row("objects", std::to_string(objects.size()) + ", " + counted(occluders, "occluder"));
+  std::string text =
+      row("objects", std::to_string(objects.size()) + " over all frames, " + counted(occluders, "occluder"));
   for (const auto& [name, counts] : shapes) {
     text += row("  " + name, std::to_string(counts.first) + " static, " + std::to_string(counts.second) + " moving");
   }

@@ -36,7 +36,8 @@ TEST_CASE("the cell is a quarter of the typical occluder's smaller side") {
   const auto objects = houses(5, 20.0);
   const LatticeChoice choice = choose_lattice(2, objects, std::nullopt, std::nullopt);
   CHECK(choice.cell == 2.0);
-  CHECK(choice.bounds.min == Vec3(-6.0, -4.0, 0.0));  // the house at the origin reaches to -5, -4
+  // The house at the origin reaches to -5, -4; then a 1024th of a cell less than one cell more.
+  CHECK(choice.bounds.min == Vec3(-8.0 + 2.0 / 1024.0, -6.0 + 2.0 / 1024.0, 0.0));
   CHECK(choice.bounds.max == Vec3(86.0, 84.0, 0.0));
   CHECK(choice.cell_reason.find("8 m") != std::string::npos);
 }
@@ -44,7 +45,7 @@ TEST_CASE("the cell is a quarter of the typical occluder's smaller side") {
 TEST_CASE("ways that are known widen the bounds") {
   const Bounds ways{{-1.5, 0.0, 0.0}, {200.0, 40.0, 0.0}};
   const LatticeChoice choice = choose_lattice(2, houses(2, 20.0), std::nullopt, std::nullopt, ways);
-  CHECK(choice.bounds.min == Vec3(-6.0, -4.0, 0.0));
+  CHECK(choice.bounds.min == Vec3(-8.0 + 2.0 / 1024.0, -6.0 + 2.0 / 1024.0, 0.0));
   CHECK(choice.bounds.max == Vec3(200.0, 40.0, 0.0));
 }
 
@@ -78,7 +79,7 @@ TEST_CASE("three dimensions count the height") {
   }
   const LatticeChoice choice = choose_lattice(3, objects, std::nullopt, std::nullopt);
   CHECK(choice.cell == 1.5);
-  CHECK(choice.bounds.min == Vec3(0.0));
+  CHECK(choice.bounds.min == Vec3(-1.5 + 1.5 / 1024.0));  // the ground lies inside a layer of cells, not on one
   CHECK(choice.bounds.max == Vec3(172.5, 12.0, 6.0));
 }
 
@@ -86,11 +87,12 @@ TEST_CASE("worlds without size still get a lattice") {
   for (const int dimension : {2, 3}) {
     const LatticeChoice empty = choose_lattice(dimension, {}, std::nullopt, std::nullopt);
     CHECK(Lattice(dimension, empty.bounds, empty.cell, 1 << 20).cell_count() == 1);
+    CHECK(empty.bounds_reason.find("nothing") != std::string::npos);
   }
   const std::vector<Object> walls{{.id = 0, .shape = Polyline{{{0.0, 0.0}, {64.0, 0.0}}}}};
   const LatticeChoice choice = choose_lattice(2, walls, std::nullopt, std::nullopt);
   CHECK(choice.cell == 1.0);
-  CHECK(Lattice(2, choice.bounds, choice.cell, 1 << 20).cell_count() == 64);
+  CHECK(Lattice(2, choice.bounds, choice.cell, 1 << 20).cell_count() == 65);
 }
 
 TEST_CASE("the box is tight for outlines and vertices") {
