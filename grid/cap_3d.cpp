@@ -15,8 +15,8 @@
 // and plane, and a word or two a row.
 #include <algorithm>
 
-#include "gridcull/grid/division.h"
 #include "gridcull/grid/face_3d.h"
+#include "gridcull/grid/scaled.h"
 
 namespace gridcull {
 
@@ -130,36 +130,9 @@ void Face3D::add_run(std::int64_t v, std::int64_t low, std::int64_t high) {
   blocks_.push_back({v, v + 1, low, high});
 }
 
-namespace {
-
-/// ceil or floor of value * n / k for n = k + 1, k + 2, ..., a step at a time, without dividing.
-class Scaled {
- public:
-  /// ceil: round up; else down.
-  Scaled(std::int64_t value, std::int64_t k, bool ceil) : k_(k), at_(value), ceil_(ceil) {
-    step_ = floor_div(value, k);
-    part_ = value - step_ * k;
-  }
-  std::int64_t next() {
-    at_ += step_;
-    rest_ += part_;
-    if (rest_ >= k_) {
-      rest_ -= k_;
-      ++at_;
-    }
-    return at_ + (ceil_ && rest_ > 0 ? 1 : 0);
-  }
-
- private:
-  std::int64_t k_, at_, step_, part_, rest_ = 0;
-  bool ceil_;
-};
-
-}  // namespace
-
 std::uint64_t Face3D::extrude(const Block& block, std::int64_t k) {
-  Scaled u_low(block.low, k, true), u_high(block.high, k, false), v_low(block.v_low, k, true),
-      v_high(block.v_high, k, false);
+  ScaledUp u_low(block.low, k), v_low(block.v_low, k);
+  ScaledDown u_high(block.high, k), v_high(block.v_high, k);
   std::uint64_t rows = 0;
   for (std::int64_t n = k + 1; n <= depth_.high; ++n) {
     const CellRange u = intersect({u_low.next(), u_high.next()}, u_), v = intersect({v_low.next(), v_high.next()}, v_);

@@ -5,9 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
-
-#include <glm/common.hpp>
 
 #include "gridcull/core/hull.h"
 #include "gridcull/grid/cover_frame.h"
@@ -22,22 +21,66 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Directions shorter than this (metres, or square metres) say nothing: their products may underflow.
 constexpr double least_length = 1e-150;
 
-/// Slabs perpendicular to an edge and to one of the cell's edges: the cross products of the
-/// separating-axis test, with the support of the given points.
-void add_edge_slabs(ConvexBody& body, const Vec3& edge, std::span<const Vec3> points) {
-  if (!(std::abs(edge.x) + std::abs(edge.y) + std::abs(edge.z) > least_length)) return;
-  const auto add = [&](std::vector<ConvexSlab>& slabs, const Vec3& a) {
-    ConvexSlab s{a, infinite, -infinite, 0.0, 0.0};
-    for (const Vec3& p : points) {
-      const double along = glm::dot(a, p - body.reference);
-      s.low = std::min(s.low, along);
-      s.high = std::max(s.high, along);
-    }
-    slabs.push_back(s);
-  };
-  add(body.xy, {-edge.y, edge.x, 0.0});
-  add(body.xz, {edge.z, 0.0, -edge.x});
-  add(body.yz, {0.0, -edge.z, edge.y});
+double size_of(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+/// The slab in direction `a` that just holds the points.
+ConvexSlab slab_around(const Vec3& a, const Vec3& reference, std::span<const Vec3> points) {
+  ConvexSlab s{a, infinite, -infinite, 0.0, 0.0};
+  for (const Vec3& p : points) {
+    const double along = glm::dot(a, p - reference);
+    s.low = std::min(s.low, along);
+    s.high = std::max(s.high, along);
+  }
+  return s;
+}
+
+/// Slabs perpendicular to an edge of the body and to an edge of the cell along x, y or z, where `bounds[k]`
+/// says that the edge may bound the body's projection along axis k: the cross products of the separating-axis
+/// test. Any direction is right, since the slab holds all points; a missing one only loosens.
+void add_edge_slabs(ConvexBody& body, const Vec3& edge, const std::array<bool, 3>& bounds,
+                    std::span<const Vec3> points) {
+  if (!(size_of(edge) > least_length)) return;
+  if (bounds[0]) body.yz.push_back(slab_around({0.0, -edge.z, edge.y}, body.reference, points));
+  if (bounds[1]) body.xz.push_back(slab_around({edge.z, 0.0, -edge.x}, body.reference, points));
+  if (bounds[2]) body.xy.push_back(slab_around({-edge.y, edge.x, 0.0}, body.reference, points));
+}
+
+/// An edge of a hull, local axes.
+struct HullEdge {
+  Vec3 along;
+  Vec3 left, right;  ///< normals of the two triangles that meet in it, any length
+
+  /// Whether the edge is on the outline of the hull seen along each axis of the world.
+  std::array<bool, 3> on_outline(const Rotation& r) const {
+    const Vec3 product = (r * left) * (r * right);
+    return {product.x <= 0.0, product.y <= 0.0, product.z <= 0.0};
+  }
+};
+
+/// Every edge once, with the normals at both sides; edges inside a face have equal ones and never matter.
+std::vector<HullEdge> edges_of(const Hull& hull, const std::vector<Vec3>& points) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> left;  // of each directed edge
+  for (const auto& t : hull.triangles) {
+    const Vec3 normal = glm::cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
+    for (std::size_t k = 0; k < 3; ++k) left[{t[k], t[(k + 1) % 3]}] = normal;
+  }
+  std::vector<HullEdge> edges;
+  for (const auto& [ends, normal] : left) {
+    const auto other = left.find({ends.second, ends.first});
+    if (ends.first > ends.second && other != left.end()) continue;
+    const Vec3 beyond = other != left.end() ? other->second : -normal;
+    edges.push_back({points[ends.second] - points[ends.first], normal, beyond});
+  }
+  return edges;
+}
+
+/// Whether a box grown by `margin` lies wholly beyond the lattice.
+bool beyond(const Lattice& lattice, const Bounds& bounds, double margin) {
+  const Bounds box = lattice.box();
+  for (int k = 0; k < 3; ++k) {
+    if (bounds.max[k] + margin < box.min[k] || bounds.min[k] - margin > box.max[k]) return true;
+  }
+  return false;
 }
 
 /// Merges the covers of several bodies.
@@ -68,7 +111,7 @@ struct PreparedShape::Detail {
   double reach;
   std::vector<Vec2> outline;      ///< local
   std::vector<ConvexSlab> sides;  ///< Convex: local, reference 0
-  std::vector<Vec3> edges;        ///< Convex: local directions
+  std::vector<HullEdge> edges;    ///< Convex
 
   void prepare(const Convex& s);
   void place(const Vec3* local, std::size_t count, const Pose& pose, ConvexBody& body, std::vector<Vec3>& world) const;
@@ -114,18 +157,11 @@ struct PreparedShape::Detail {
 
 void PreparedShape::Detail::prepare(const Convex& s) {
   const Hull hull = convex_hull(s.vertices);
-  for (const auto& t : hull.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-      if (from < to) edges.push_back(s.vertices[to] - s.vertices[from]);
-    }
-  }
+  edges = edges_of(hull, s.vertices);
   for (const HalfSpace& side : hull.sides) {
-    ConvexSlab slab{side.normal, infinite, -infinite, side.offset + hull.margin, infinite};
-    for (const Vec3& p : s.vertices) {
-      slab.low = std::min(slab.low, glm::dot(side.normal, p));
-      slab.high = std::max(slab.high, glm::dot(side.normal, p));
-    }
+    ConvexSlab slab = slab_around(side.normal, Vec3(0.0), s.vertices);
+    slab.inner_low = side.offset + hull.margin;
+    slab.inner_high = infinite;
     sides.push_back(slab);
   }
 }
@@ -154,7 +190,7 @@ void PreparedShape::Detail::cover(const Convex& s, const Lattice& lattice, const
     body.full.push_back(side);
   }
   body.has_inside = true;
-  for (const Vec3& e : edges) add_edge_slabs(body, r * e, scratch.vertices);
+  for (const HullEdge& e : edges) add_edge_slabs(body, r * e.along, e.on_outline(r), scratch.vertices);
   convex(lattice, body, lattice.margin(magnitude_of(body.bounds)), out);
 }
 
@@ -168,15 +204,14 @@ void PreparedShape::Detail::cover(const Faces& s, const Lattice& lattice, const 
     body.clear();
     body.bounds = {};
     for (const Vec3& v : p) body.bounds.add(v);
+    if (beyond(lattice, body.bounds, margin)) {
+      out.outside = true;
+      continue;
+    }
     body.reference = p[0];
     const Vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
-    const double b = glm::dot(normal, p[1] - p[0]), c = glm::dot(normal, p[2] - p[0]);
-    if (glm::dot(glm::abs(normal), Vec3(1.0)) > least_length) {
-      body.full.push_back({normal, std::min({0.0, b, c}), std::max({0.0, b, c}), 0.0, 0.0});
-    }
-    for (int k = 0; k < 3; ++k) {
-      add_edge_slabs(body, p[static_cast<std::size_t>((k + 1) % 3)] - p[static_cast<std::size_t>(k)], p);
-    }
+    if (size_of(normal) > least_length) body.full.push_back(slab_around(normal, p[0], p));
+    for (std::size_t k = 0; k < 3; ++k) add_edge_slabs(body, p[(k + 1) % 3] - p[k], {true, true, true}, p);
     convex(lattice, body, margin, out);
   }
   if (s.triangles.size() > 1) merge_bricks(out.bricks);

@@ -32,11 +32,15 @@ class Hide2D {
   std::uint64_t bytes() const { return (done_[0].capacity() + done_[1].capacity()) * sizeof(std::uint64_t); }
 
  private:
-  bool solid(const Cell& c) const;
+  /// The eight cells of a brick on the line through `c` along `axis`, as bits: opaque or hidden.
+  std::uint64_t solid_on_line(std::size_t brick, int axis, const Cell& c) const;
+  /// The last cell from `start` along `axis` in sense `sign` such that all between are opaque or hidden.
+  Cell run_end(const Cell& start, int axis, int sign) const;
   /// From `start` along `axis` while cells are opaque or hidden; hides what lies behind; returns the end.
   Cell leg(const Cell& start, int axis, int sign, WorkCounts& work);
   void shadow(int axis, std::int64_t plane, std::int64_t a, std::int64_t b, WorkCounts& work);
-  void set_line(int axis, std::int64_t fixed, std::int64_t low, std::int64_t high);
+  /// Sets the cells low .. high on the line along `axis` with the other coordinate `fixed`.
+  void set_line(std::vector<std::uint64_t>& bits, int axis, std::int64_t fixed, std::int64_t low, std::int64_t high);
 
   ViewGrid* grid_ = nullptr;
   Cell viewer_;
