@@ -86,8 +86,9 @@ void add_viewers(std::vector<HandMadeScene>& out) {
                     .object(0, cuboid(100, 100, 2), {0, 0, -1})
                     .object(1, sphere(1), {5, 0, -8})
                     .object(2, sphere(1), {5, 0, 2})
+                    .object(3, sphere(0.5), {5, 0, -1})
                     .sees({0, 2})
-                    .hides({1}));
+                    .hides({1, 3}));
   out.push_back(scene("a viewer on a box's corner")
                     .eye({10, 10, 10})
                     .object(0, cuboid(10, 10, 10), {15, 15, 15})
@@ -212,6 +213,14 @@ void add_limits(std::vector<HandMadeScene>& out) {
                     .object(0, cuboid(1, 4, 4), {1.5, 0, 0})
                     .object(1, cuboid(8, 2, 2), {7, 0, 0})
                     .hides({0, 1}));
+  out.push_back(scene("the ground that one stands on is seen beyond near, and nothing in it")
+                    .eye({0, 0, 0})
+                    .frustum(60, 1, 5, 100)
+                    .object(0, cuboid(100, 100, 2), {0, 0, -1})
+                    .object(1, sphere(0.5), {10, 0, -1})
+                    .object(2, sphere(1), {10, 0, 2})
+                    .sees({0, 2})
+                    .hides({1}));
   out.push_back(scene("far is a plane")
                     .eye({0, 0, 0})
                     .frustum(90, 1, 0, 20)

@@ -75,6 +75,23 @@ TEST_CASE("exact 2d: moving, turning and mirroring the world changes nothing") {
   }
 }
 
+TEST_CASE("exact 2d: beside a thin wall by less than rounding nothing beyond is claimed") {
+  const std::vector<Object> world{{.id = 0, .shape = Polyline{{{0, -10}, {0, 10}}}},
+                                  {.id = 1, .shape = Disc{1}, .pose = {{5, 0, 0}, {}}},
+                                  {.id = 2, .shape = Disc{1}, .pose = {{-5, 0, 0}, {}}}};
+  const auto seen_from = [&](double x) {
+    View view;
+    view.pose.position.x = x;
+    return exact_visible_2d(world, view).visible;
+  };
+  CHECK(seen_from(1e-6) == std::vector<ObjectId>{0, 1});
+  CHECK(seen_from(-1e-6) == std::vector<ObjectId>{0, 2});
+  CHECK(seen_from(1e-15) == std::vector<ObjectId>{0});
+  CHECK(seen_from(-1e-15) == std::vector<ObjectId>{0});
+  CHECK(has(seen_from(0.0), 1));
+  CHECK(has(seen_from(0.0), 2));
+}
+
 TEST_CASE("exact 2d: 3D shapes and impossible views are refused") {
   const std::vector<Object> world{Object{.id = 1, .shape = Sphere{1.0}}};
   CHECK_THROWS_AS(exact_visible_2d(world, View{}), Error);

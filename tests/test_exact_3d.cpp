@@ -101,7 +101,9 @@ TEST_CASE("exact 3d: hidden things are not confirmed in any direction") {
       CAPTURE(id);
       const auto object = std::find_if(scene.objects.begin(), scene.objects.end(), [&](auto& o) { return o.id == id; });
       for (int k = 0; k < 300; ++k) {
-        const Vec3 target = object->pose.position + 0.6 * reach_of(object->shape) * random_direction(random);
+        // Its very middle too: there, seams between abutting boxes let single rays through.
+        const double off = k == 0 ? 0.0 : 0.6 * reach_of(object->shape);
+        const Vec3 target = object->pose.position + off * random_direction(random);
         CHECK_FALSE(rays.confirm(scene.view, id, target - scene.view.pose.position));
       }
     }
