@@ -18,10 +18,12 @@ if [ -n "${1:-}" ]; then out=$(realpath -m "$caller/$1"); [[ "$1" == /* ]] && ou
 # shellcheck disable=SC2086  # the list is meant to be split
 need $packages_program
 
-echo "== building (only the program; tests/run.sh builds the tests)"
-cmake --preset release -B build/demo -DBUILD_TESTING=OFF >/dev/null
-cmake --build build/demo --target gridcull
-gridcull=$PWD/build/demo/gridcull
+echo "== building the program (tests/run.sh adds the tests)"
+fresh=()
+[ -e build/release/CMakeCache.txt ] || fresh=(-DBUILD_TESTING=OFF)
+cmake --preset release "${fresh[@]}" >/dev/null
+cmake --build --preset release --target gridcull
+gridcull=$PWD/build/release/gridcull
 
 echo "== a town of 400 buildings and 100 cars; ten drivers look 100 m around"
 "$gridcull" make town --out "$out/town" --viewers 10 --range 100

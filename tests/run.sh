@@ -23,7 +23,7 @@ done
 # shellcheck disable=SC2086  # the list is meant to be split
 need $packages_tests
 
-cmake --preset "$preset"
+cmake --preset "$preset" -DBUILD_TESTING=ON
 cmake --build --preset "$preset" -j "$jobs"
 export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
 ctest --preset "$preset" -j "$jobs" "${configuration[@]}" "$@"
