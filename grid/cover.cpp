@@ -124,11 +124,17 @@ struct PreparedShape::Detail {
   }
   void cover(const Rectangle& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
     set_box(scratch.body, pose, {0.5 * s.size.x, 0.5 * s.size.y, 0.0}, true);
-    convex(lattice, scratch.body, lattice.margin(magnitude_of(scratch.body.bounds)), out);
+    convex_planar(lattice, scratch.body, lattice.margin(magnitude_of(scratch.body.bounds)), out.bricks, out.outside);
   }
   void cover(const Cuboid& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
-    set_box(scratch.body, pose, 0.5 * s.size, false);
-    convex(lattice, scratch.body, lattice.margin(magnitude_of(scratch.body.bounds)), out);
+    const bool upright = is_upright(rotation_of(pose.orientation));
+    ConvexBody& body = scratch.body;
+    set_box(body, pose, 0.5 * s.size, upright);
+    const double margin = lattice.margin(magnitude_of(body.bounds));
+    if (!upright) return convex(lattice, body, margin, out);
+    scratch.tiles.clear();
+    convex_planar(lattice, body, margin, scratch.tiles, out.outside);
+    extrude(lattice, scratch.tiles, body.bounds.min.z, body.bounds.max.z, margin, out);
   }
   void cover(const Polygon&, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
     cover_plane(lattice, pose, true, scratch, out);

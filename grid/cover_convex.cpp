@@ -77,8 +77,9 @@ struct Row {
 
 /// Cell centres of an axis relative to the body's reference, and back.
 struct Centres {
-  double first, cell, offset, inverse;  ///< offset: index of the reference, in cells
+  double first = 0, cell = 0, offset = 0, inverse = 0;  ///< offset: index of the reference, in cells
 
+  Centres() = default;
   Centres(const Axis& axis, double reference)
       : first(axis.origin - reference + 0.5 * axis.cell),
         cell(axis.cell),
@@ -131,9 +132,9 @@ struct Rows {
   }
 };
 
-/// Appends the bricks that 64 / edge rows touch; `base` is the index of the brick at x = 0.
-template <int edge>
-void emit(const std::array<Row, 64 / edge>& rows, std::size_t base, std::vector<BrickCover>& out) {
+/// Appends the bricks that a row of bricks of `rows` touches; `base` is the index of the brick at x = 0.
+template <int edge, std::size_t count>
+void emit(const std::array<Row, count>& rows, std::size_t base, std::vector<BrickCover>& out) {
   Range cells{std::numeric_limits<std::int64_t>::max(), -1};
   for (const Row& r : rows) {
     if (r.touched.empty()) continue;
@@ -143,23 +144,24 @@ void emit(const std::array<Row, 64 / edge>& rows, std::size_t base, std::vector<
   const std::size_t from = out.size();
   const std::int64_t first = cells.first / edge, last = cells.last / edge;
   BrickCover* bricks = append_bricks(out, base, first, last);
-  for (int j = 0; j < 64 / edge; ++j) {
-    const Row& r = rows[static_cast<std::size_t>(j)];
-    if (!r.touched.empty()) fill_run<edge, &BrickCover::touched>(bricks, first, edge * j, r.touched);
-    if (!r.opaque.empty()) fill_run<edge, &BrickCover::opaque>(bricks, first, edge * j, r.opaque);
+  for (std::size_t j = 0; j < count; ++j) {
+    const Row& r = rows[j];
+    const int shift = edge * static_cast<int>(j);
+    if (!r.touched.empty()) fill_run<edge, &BrickCover::touched>(bricks, first, shift, r.touched);
+    if (!r.opaque.empty()) fill_run<edge, &BrickCover::opaque>(bricks, first, shift, r.opaque);
   }
   drop_empty(out, from);
 }
 
-void flat_body(const Lattice& lattice, const Rows& rows, const Range& y, Cover& out) {
-  constexpr int edge = 8;
+template <int edge>
+void flat_body(const Lattice& lattice, const Rows& rows, const Range& y, std::vector<BrickCover>& out) {
   for (std::int64_t by = y.first / edge; by <= y.last / edge; ++by) {
     std::array<Row, edge> band{};
     for (int j = 0; j < edge; ++j) {
       const std::int64_t row = by * edge + j;
       if (row >= y.first && row <= y.last) band[static_cast<std::size_t>(j)] = rows.at(rows.y.at(row), 0.0, {});
     }
-    emit<edge>(band, lattice.brick_index({0, by, 0}), out.bricks);
+    emit<edge>(band, lattice.brick_index({0, by, 0}), out);
   }
 }
 
@@ -220,11 +222,10 @@ double magnitude_of(const Bounds& bounds) {
 }
 
 void convex(const Lattice& lattice, ConvexBody& body, double margin, Cover& out) {
-  const bool flat = lattice.dimension() == 2;
   const Axis ax(lattice, 0), ay(lattice, 1), az(lattice, 2);
   const Range x = ax.touched(body.bounds.min.x - margin, body.bounds.max.x + margin, out.outside);
   const Range y = ay.touched(body.bounds.min.y - margin, body.bounds.max.y + margin, out.outside);
-  const Range z = flat ? Range{0, 0} : az.touched(body.bounds.min.z - margin, body.bounds.max.z + margin, out.outside);
+  const Range z = az.touched(body.bounds.min.z - margin, body.bounds.max.z + margin, out.outside);
   if (x.empty() || y.empty() || z.empty()) return;
   const double half = 0.5 * lattice.cell() + margin;
   for (ConvexSlab& s : body.full) solve(s, 0, half);
@@ -232,10 +233,22 @@ void convex(const Lattice& lattice, ConvexBody& body, double margin, Cover& out)
   solve_planar(body.xz, 0, half);
   solve_planar(body.yz, 1, half);
   const Rows rows{body, Centres(ax, body.reference.x), Centres(ay, body.reference.y), Centres(az, body.reference.z), x};
-  if (flat) {
-    flat_body(lattice, rows, y, out);
+  solid_body(lattice, rows, y, z, out);
+}
+
+void convex_planar(const Lattice& lattice, ConvexBody& body, double margin, std::vector<BrickCover>& out,
+                   bool& outside) {
+  const Axis ax(lattice, 0), ay(lattice, 1);
+  const Range x = ax.touched(body.bounds.min.x - margin, body.bounds.max.x + margin, outside);
+  const Range y = ay.touched(body.bounds.min.y - margin, body.bounds.max.y + margin, outside);
+  if (x.empty() || y.empty()) return;
+  const double half = 0.5 * lattice.cell() + margin;
+  for (ConvexSlab& s : body.full) solve(s, 0, half);
+  const Rows rows{body, Centres(ax, body.reference.x), Centres(ay, body.reference.y), {}, x};
+  if (lattice.dimension() == 2) {
+    flat_body<8>(lattice, rows, y, out);
   } else {
-    solid_body(lattice, rows, y, z, out);
+    flat_body<4>(lattice, rows, y, out);
   }
 }
 
@@ -245,13 +258,11 @@ void set_box(ConvexBody& body, const Pose& pose, const Vec3& half, bool flat) {
   body.reference = pose.position;
   const Rotation r = rotation_of(pose.orientation);
   const std::array<Vec3, 3> axes{r.x, r.y, r.z};
-  const int count = flat ? 2 : 3;
   Vec3 extent(0.0);
-  for (int k = 0; k < count; ++k) {
-    Vec3 a = axes[static_cast<std::size_t>(k)];
-    if (flat) a.z = 0.0;
-    body.full.push_back({a, -half[k], half[k], -half[k], half[k]});
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& a = axes[static_cast<std::size_t>(k)];
     extent += half[k] * Vec3(std::abs(a.x), std::abs(a.y), std::abs(a.z));
+    if (!flat || k < 2) body.full.push_back({a, -half[k], half[k], -half[k], half[k]});
   }
   body.bounds = {pose.position - extent, pose.position + extent};
   if (flat) return;

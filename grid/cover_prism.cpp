@@ -12,32 +12,13 @@
 namespace gridcull::covering {
 namespace {
 
-/// The cells of one planar brick repeated over the layers of `z` that lie in brick layer bz.
-std::uint64_t over_layers(std::uint64_t planar, std::int64_t bz, const Range& z) {
+/// The first bit of each layer of brick layer bz that lies in z: times a planar mask, its cells there.
+std::uint64_t layers(std::int64_t bz, const Range& z) {
   const std::int64_t low = std::max<std::int64_t>(z.first - 4 * bz, 0);
   const std::int64_t high = std::min<std::int64_t>(z.last - 4 * bz, 3);
   std::uint64_t bits = 0;
-  for (std::int64_t k = low; k <= high; ++k) bits |= planar << (16 * k);
+  for (std::int64_t k = low; k <= high; ++k) bits |= std::uint64_t{1} << (16 * k);
   return bits;
-}
-
-void upright(const Lattice& lattice, std::span<const Vec2> world, const Bounds& bounds, double margin,
-             CoverScratch& scratch, Cover& out) {
-  const Axis az(lattice, 2);
-  const double low = bounds.min.z, high = bounds.max.z;
-  const Range z = az.touched(low - margin, high + margin, out.outside);
-  const Range opaque{ceil_within(az.in_cells(low + margin), z.first, z.last + 1),
-                     floor_within(az.in_cells(high - margin), z.first, z.last + 1) - 1};
-  scratch.tiles.clear();
-  outline(lattice, world, true, margin, scratch, scratch.tiles, out.outside);
-  if (z.empty()) return;
-  const auto plane = static_cast<std::uint32_t>(lattice.bricks().x * lattice.bricks().y);
-  for (std::int64_t bz = z.first / 4; bz <= z.last / 4; ++bz) {
-    const auto base = static_cast<std::uint32_t>(bz) * plane;
-    for (const BrickCover& tile : scratch.tiles) {
-      out.bricks.push_back({base + tile.brick, over_layers(tile.touched, bz, z), over_layers(tile.opaque, bz, opaque)});
-    }
-  }
 }
 
 /// A box of half edges `half` about `centre` against an edge: complete separating-axis test.
@@ -99,6 +80,23 @@ void tilted(const Lattice& lattice, const Local& shape, const Pose& pose, double
 
 }  // namespace
 
+void extrude(const Lattice& lattice, const std::vector<BrickCover>& tiles, double low, double high, double margin,
+             Cover& out) {
+  const Axis az(lattice, 2);
+  const Range z = az.touched(low - margin, high + margin, out.outside);
+  if (z.empty()) return;
+  const Range opaque{ceil_within(az.in_cells(low + margin), z.first, z.last + 1),
+                     floor_within(az.in_cells(high - margin), z.first, z.last + 1) - 1};
+  const auto plane = static_cast<std::uint32_t>(lattice.bricks().x * lattice.bricks().y);
+  for (std::int64_t bz = z.first / 4; bz <= z.last / 4; ++bz) {
+    const std::uint64_t touched = layers(bz, z), inside = layers(bz, opaque);
+    const auto base = static_cast<std::uint32_t>(bz) * plane;
+    for (const BrickCover& tile : tiles) {
+      out.bricks.push_back({base + tile.brick, tile.touched * touched, tile.opaque * inside});
+    }
+  }
+}
+
 void prism(const Lattice& lattice, std::span<const Vec2> local, double height, const Pose& pose, CoverScratch& scratch,
            Cover& out) {
   const Rotation r = rotation_of(pose.orientation);
@@ -111,8 +109,10 @@ void prism(const Lattice& lattice, std::span<const Vec2> local, double height, c
     scratch.outline.emplace_back(bottom);
   }
   const double margin = lattice.margin(magnitude_of(bounds));
-  if (r.x.z == 0.0 && r.y.z == 0.0 && r.z.x == 0.0 && r.z.y == 0.0) {
-    upright(lattice, scratch.outline, bounds, margin, scratch, out);
+  if (is_upright(r)) {
+    scratch.tiles.clear();
+    outline(lattice, scratch.outline, true, margin, scratch, scratch.tiles, out.outside);
+    extrude(lattice, scratch.tiles, bounds.min.z, bounds.max.z, margin, out);
   } else {
     tilted(lattice, {local, height}, pose, margin, scratch, out);
   }
