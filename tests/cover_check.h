@@ -107,6 +107,7 @@ class Random {
   }
   Quat turn() {
     if (one_in(4)) return Quat{};
+    if (one_in(8)) return {0.0, 1.0, 0.0, 0.0};  // upside down
     if (one_in(3)) return turn_about_z(in(-4, 4));
     return normalised({in(-1, 1), in(-1, 1), in(-1, 1), in(-1, 1) + 1e-3});
   }

@@ -101,7 +101,7 @@ Totals run(std::uint64_t first_seed, int count, const Make& make, const Exact& e
 }
 
 bool always(const Pose&) { return true; }
-bool upright(const Pose& pose) { return pose.orientation.x == 0.0 && pose.orientation.y == 0.0; }
+bool upright(const Pose& pose) { return std::abs(rotation_of(pose.orientation).z.z) == 1.0; }
 
 }  // namespace
 
