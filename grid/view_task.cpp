@@ -167,7 +167,9 @@ void ViewTask::look_outside() {
     } else {
       ++answer_->work.tbv_tests;
       const TbvMatrix::Ball& ball = world.tbv.ball(slot);
-      if (volume_->may_touch_ball(ball.centre, ball.radius)) reveal(slot);
+      // What may hold the viewpoint counts even where it is nearer than the near plane: containers are reported.
+      const bool around = glm::length(ball.centre - volume_->apex()) <= ball.radius;
+      if (around || volume_->may_touch_ball(ball.centre, ball.radius)) reveal(slot);
     }
   }
 }
