@@ -91,7 +91,8 @@ const Lattice& GridEngine::lattice() const { return state_->world.lattice; }
 MemoryUse GridEngine::memory() const {
   const State& s = *state_;
   MemoryUse use;
-  use.matrices = s.world.matrix.matrix_bytes() + s.world.tbv.matrix_bytes() + s.world.hollow.matrix_bytes();
+  use.matrices = s.world.matrix.matrix_bytes() + s.world.tbv.matrix_bytes() + s.world.hollow.matrix_bytes() +
+                 s.world.seen_in.size() * sizeof(std::uint32_t);
   use.entries = s.world.matrix.entry_bytes() + s.world.tbv.entry_bytes() + s.world.hollow.entry_bytes();
   use.objects = s.world.objects.bytes() + s.expiries.bytes();
   for (const auto& task : s.tasks) use.viewers += task->bytes();

@@ -1,8 +1,10 @@
 // The steps of a frame. The order of the answers' bits never depends on scheduling: viewers write only their
 // own answers, and what they reveal is merged in the order of the views.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -55,7 +57,8 @@ void GridEngine::State::settle_jumps(double time) {
   jumped.clear();
 }
 
-// Criterion 2 of the paper: hidden and expired, so a new term, twice as long.
+// Criterion 2 of the paper: hidden and expired, so a new term; twice as long where the larger volume stays
+// clear of bricks that somebody sees, since it would be revealed there at once.
 void GridEngine::State::expire() {
   expired.clear();
   expiries.pop_expired(now, expired);
@@ -64,7 +67,9 @@ void GridEngine::State::expire() {
     ++stats.tbv_expired;
     state.pose = world.read(slot);
     take_volume(slot);
-    state.term = terms.longer(state.term, state.max_speed);
+    const double longer = terms.longer(state.term, state.max_speed);
+    const TbvMatrix::Ball grown{state.pose.position, TbvTerm::radius(state.max_speed, longer, state.shape->reach())};
+    if (world.tbv.fits(grown) && !world.near_seen(grown)) state.term = longer;
     give_volume(slot);
   }
 }
@@ -118,7 +123,8 @@ void GridEngine::State::answer_views(std::span<const View> views, Answers& out) 
   if (options.threads == 1 || views.size() < 2) {
     for (std::size_t i = 0; i < views.size(); ++i) one(i, *tasks[0]);
   } else {
-    tbb::task_arena arena(options.threads);
+    // More threads than the machine has would only make TBB print a warning.
+    tbb::task_arena arena(std::min(options.threads, tbb::info::default_concurrency()));
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
         one(i, *tasks[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);

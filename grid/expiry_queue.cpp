@@ -11,12 +11,16 @@ std::int64_t ExpiryQueue::day(double time) const {
   // Before the first step is known everything waits in bucket 0.
   if (width_ <= 0) return 0;
   const double days = std::floor(time / width_);
-  return std::abs(days) < 9e15 ? static_cast<std::int64_t>(days) : 0;
+  return std::fabs(days) < most_days ? static_cast<std::int64_t>(days) : 0;
+}
+
+std::uint32_t ExpiryQueue::bucket_of(std::int64_t day) {
+  return static_cast<std::uint32_t>(((day % ring) + ring) % ring);
 }
 
 void ExpiryQueue::link(Slot slot) {
   Link& l = links_[slot];
-  const auto bucket = static_cast<std::uint32_t>(((day(l.expiry) % ring) + ring) % ring);
+  const std::uint32_t bucket = bucket_of(day(l.expiry));
   l.bucket = bucket;
   l.before = none;
   l.after = buckets_[bucket];
@@ -48,10 +52,12 @@ void ExpiryQueue::pop_expired(double now, std::vector<Slot>& out) {
       for (const Slot slot : waiting) link(slot);
     }
   } else {
-    const std::int64_t first = day(last_), last = day(now);
-    const std::int64_t days = std::min(last - first + 1, ring);
-    for (std::int64_t d = 0; d < days; ++d) {
-      drain(static_cast<std::uint32_t>((((first + d) % ring) + ring) % ring), now, out);
+    // A long pause, or times so far from 0 that days cannot be told apart, drains the whole calendar.
+    const double first = std::floor(last_ / width_), last = std::floor(now / width_);
+    if (last - first + 1.0 >= static_cast<double>(ring) || !(std::max(std::fabs(first), std::fabs(last)) < most_days)) {
+      for (std::uint32_t bucket = 0; bucket < ring; ++bucket) drain(bucket, now, out);
+    } else {
+      for (std::int64_t d = day(last_); d <= day(now); ++d) drain(bucket_of(d), now, out);
     }
   }
   last_ = now;

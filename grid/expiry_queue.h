@@ -47,7 +47,10 @@ class ExpiryQueue {
   };
   static constexpr std::int64_t ring = 1024;
 
+  static constexpr double most_days = 9e15;  // beyond it doubles do not tell neighbouring days apart
+
   std::int64_t day(double time) const;
+  static std::uint32_t bucket_of(std::int64_t day);
   void link(Slot slot);
   void drain(std::uint32_t bucket, double now, std::vector<Slot>& out);
 

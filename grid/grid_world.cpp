@@ -20,6 +20,22 @@ void check_pose(const Pose& pose, ObjectId object) {
   }
 }
 
+bool GridWorld::near_seen(const TbvMatrix::Ball& ball) const {
+  const int s = lattice.brick_shift();
+  const Cell low = lattice.cell_of(ball.centre - Vec3(ball.radius)),
+             high = lattice.cell_of(ball.centre + Vec3(ball.radius));
+  const auto now = static_cast<std::uint32_t>(frame);
+  for (std::int64_t z = low.z >> s; z <= high.z >> s; ++z) {
+    for (std::int64_t y = low.y >> s; y <= high.y >> s; ++y) {
+      const std::size_t row = lattice.brick_index({0, y, z});
+      for (std::int64_t x = low.x >> s; x <= high.x >> s; ++x) {
+        if (now - seen_in[row + static_cast<std::size_t>(x)] <= 1) return true;
+      }
+    }
+  }
+  return false;
+}
+
 Pose GridWorld::read(Slot slot) {
   const std::lock_guard lock(reading_);
   ObjectState& state = objects[slot];

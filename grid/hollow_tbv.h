@@ -51,6 +51,11 @@ class HollowTbv {
     CubeCells cube;        // 3D
   };
   bool encloses(const Member& member, const Cell& cell) const;
+  /// Whether the cube and the brick whose lowest cell is `corner` have a cell in common.
+  static bool reaches(const CubeCells& cube, const Cell& corner) {
+    return cube.low.x <= corner.x + 3 && cube.high.x >= corner.x && cube.low.y <= corner.y + 3 &&
+           cube.high.y >= corner.y && cube.low.z <= corner.z + 3 && cube.high.z >= corner.z;
+  }
   bool enter_circle(const Member& member);
   bool enter_cube(const Member& member);
   std::array<std::uint32_t, 3> planar_bricks(std::size_t brick) const;
@@ -76,12 +81,15 @@ std::uint64_t HollowTbv::touching(std::size_t brick, std::uint64_t bits, W&& wan
   }
   // A cell of a face lies on at least two of the three projections, so its id is in T_xy or in T_xz.
   const std::array<std::uint32_t, 3> plane = planar_bricks(brick);
+  const Cell corner = lattice_.brick_corner(brick);
   for (std::size_t k = 0; k < 2; ++k) {
     for (std::uint32_t i = lists_[k].first(plane[k]); i != none; i = lists_[k].entry(i).after) {
       const Slot slot = lists_[k].entry(i).slot;
       ++looked;
+      // Most ids of a projection belong to cubes before or behind the brick.
+      if (!reaches(members_[places_[slot]].cube, corner) || !wanted(slot)) continue;
       const std::uint64_t other = lists_[1 - k].bits(slot, plane[1 - k]);
-      if ((k == 1 && other != 0) || !wanted(slot)) continue;  // met in T_xy already
+      if (k == 1 && other != 0) continue;  // met in T_xy already
       const std::uint64_t here = lists_[k].entry(i).bits, yz = lists_[2].bits(slot, plane[2]);
       const std::uint64_t faces =
           cells_on_faces(static_cast<std::uint16_t>(k == 0 ? here : other),

@@ -61,14 +61,22 @@ void TbvMatrix::insert(Slot slot, const Ball& ball) {
   balls_[slot] = ball;
   link.level = level_for(ball.radius);
   Level& level = levels_[link.level];
-  if (level.heads.empty()) {
-    level.heads.assign(static_cast<std::size_t>(level.cells.x * level.cells.y * level.cells.z), none);
-  }
+  if (level.homes.empty()) level.homes.resize(static_cast<std::size_t>(level.cells.x * level.cells.y * level.cells.z));
   link.cell = level_cell(level, lattice_.cell_of(ball.centre));
+  Home& home = level.homes[link.cell];
   link.before = none;
-  link.after = level.heads[link.cell];
+  link.after = home.head;
   if (link.after != none) links_[link.after].before = slot;
-  level.heads[link.cell] = slot;
+  home.head = slot;
+  ++home.size;
+  if (home.size == 1 || home.left > home.size) {
+    home.left = 0;
+    home.box = Bounds{};
+    for (std::uint32_t i = home.head; i != none; i = links_[i].after)
+      home.box.add_ball(balls_[i].centre, balls_[i].radius);
+  } else {
+    home.box.add_ball(ball.centre, ball.radius);
+  }
   ++level.size;
   ++size_;
   count(ball, 1);
@@ -77,7 +85,10 @@ void TbvMatrix::insert(Slot slot, const Ball& ball) {
 void TbvMatrix::erase(Slot slot) {
   Link& link = links_[slot];
   Level& level = levels_[link.level];
-  (link.before == none ? level.heads[link.cell] : links_[link.before].after) = link.after;
+  Home& home = level.homes[link.cell];
+  (link.before == none ? home.head : links_[link.before].after) = link.after;
+  --home.size;
+  ++home.left;
   if (link.after != none) links_[link.after].before = link.before;
   link.level = none;
   --level.size;
@@ -133,7 +144,7 @@ bool TbvMatrix::ball_touches(const Ball& ball, const BrickLines& lines, std::uin
 
 std::uint64_t TbvMatrix::matrix_bytes() const {
   std::uint64_t bytes = counts_.size() * sizeof(std::uint32_t);
-  for (const Level& level : levels_) bytes += level.heads.size() * sizeof(std::uint32_t);
+  for (const Level& level : levels_) bytes += level.homes.size() * sizeof(Home);
   return bytes;
 }
 

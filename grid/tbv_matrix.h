@@ -56,11 +56,20 @@ class TbvMatrix {
   struct Link {
     std::uint32_t before = none, after = none, cell = none, level = none;
   };
+  /// A level's cell: its volumes and a box around them, which spares looking at crowds that stay away from
+  /// the cell's loose border. The box only grows until as many volumes have left as are there; then it is
+  /// made anew.
+  struct Home {
+    std::uint32_t head = none;
+    std::uint32_t size = 0;
+    std::uint32_t left = 0;
+    Bounds box{};
+  };
   struct Level {
-    Cell cells;                        // level cells along each axis
-    int shift = 0;                     // level cell = cell >> shift
-    double side = 0;                   // metres
-    std::vector<std::uint32_t> heads;  // allocated on first use
+    Cell cells;               // level cells along each axis
+    int shift = 0;            // level cell = cell >> shift
+    double side = 0;          // metres
+    std::vector<Home> homes;  // allocated on first use
     std::uint64_t size = 0;
   };
 
@@ -80,6 +89,10 @@ class TbvMatrix {
     };
     const double x = gap(0), y = gap(1), z = gap(2);
     return x * x + y * y + z * z <= ball.radius * ball.radius;
+  }
+  static bool meet(const Bounds& box, const BrickLines& lines) {
+    return box.min.x <= lines.high.x && box.max.x >= lines.low.x && box.min.y <= lines.high.y &&
+           box.max.y >= lines.low.y && box.min.z <= lines.high.z && box.max.z >= lines.low.z;
   }
   BrickLines lines_of(const Cell& corner) const;
   bool ball_touches(const Ball& ball, const BrickLines& lines, std::uint64_t bits) const;
@@ -114,7 +127,9 @@ std::uint64_t TbvMatrix::touching(std::size_t brick, std::uint64_t bits, W&& wan
       for (std::int64_t y = low.y; y <= high.y; ++y) {
         for (std::int64_t x = low.x; x <= high.x; ++x) {
           const auto cell = static_cast<std::size_t>((z * level.cells.y + y) * level.cells.x + x);
-          for (std::uint32_t slot = level.heads[cell]; slot != none; slot = links_[slot].after) {
+          const Home& home = level.homes[cell];
+          if (home.size == 0 || !meet(home.box, lines)) continue;
+          for (std::uint32_t slot = home.head; slot != none; slot = links_[slot].after) {
             ++looked;
             if (near(balls_[slot], lines) && wanted(slot) && ball_touches(balls_[slot], lines, bits)) f(slot);
           }

@@ -39,7 +39,7 @@ class TbvTerm {
   }
 
  private:
-  static constexpr double widest = 8.0;  // cells
+  static constexpr double widest = 2.0;  // cells
   double cell_;
 };
 

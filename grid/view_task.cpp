@@ -235,7 +235,9 @@ void ViewTask::collect_found(const Found& found) {
 void ViewTask::collect_brick(std::size_t brick) {
   const IdentifierMatrix& matrix = world_->matrix;
   const std::uint64_t visible = grid_.visible[brick];
-  for (std::uint32_t i = matrix.first_in_brick(grid_.lattice_brick(brick)); i != none;) {
+  const std::size_t lattice_brick = grid_.lattice_brick(brick);
+  world_->note_seen(lattice_brick);
+  for (std::uint32_t i = matrix.first_in_brick(lattice_brick); i != none;) {
     const auto& entry = matrix.entry(i);
     ++answer_->work.object_tests;
     if (entry.touched & visible) consider(entry.slot, world_->objects[entry.slot].pose);
