@@ -254,4 +254,14 @@ std::optional<Fault> check_world(const WorldScript& script, const MethodEntry& m
   }
 }
 
+std::optional<Fault> check_world(const WorldScript& script, const MethodEntry& method, int rays) {
+  try {
+    Tally ignored;
+    const Truth truth(script, rays);
+    return Run(script, method, truth, ignored).play();
+  } catch (const Error& error) {
+    return Fault{"error", std::string("threw ") + error.what()};
+  }
+}
+
 }  // namespace gridcull::test

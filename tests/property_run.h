@@ -54,4 +54,7 @@ class Truth {
 std::optional<Fault> check_world(const WorldScript& script, const MethodEntry& method, const Truth& truth,
                                  Tally& tally);
 
+/// The same with a reference of its own; what that refuses is a fault by the rule `error`.
+std::optional<Fault> check_world(const WorldScript& script, const MethodEntry& method, int rays);
+
 }  // namespace gridcull::test

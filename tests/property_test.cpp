@@ -25,12 +25,10 @@ bool takes(const MethodInfo& info, int dimension) { return dimension == 2 ? info
 
 std::string shrunk_report(const WorldScript& script, const MethodEntry& method, int rays, const Fault& fault) {
   const WorldScript small = shrink(script, [&](const WorldScript& candidate) {
-    Tally ignored;
-    const auto again = check_world(candidate, method, Truth(candidate, rays), ignored);
+    const auto again = check_world(candidate, method, rays);
     return again && again->rule == fault.rule;
   });
-  Tally ignored;
-  const auto last = check_world(small, method, Truth(small, rays), ignored);
+  const auto last = check_world(small, method, rays);
   return (last ? last->text : std::string("not the same twice")) + "\n" + to_cpp(small);
 }
 

@@ -51,9 +51,9 @@ class Story {
 
   void choose_times() {
     static constexpr double starts[] = {0.0, 0.0, -3.0, 12.5, 1e6};
-    static constexpr double steps[] = {0.1, 1.0, 1.0 / 30.0, 0.25, 1e-6};
+    static constexpr double steps[] = {0.1, 1.0, 1.0 / 30.0, 0.25, 1e-6, 1e-9};
     time_ = starts[random_.below(5)];
-    usual_step_ = steps[random_.below(5)];
+    usual_step_ = steps[random_.below(6)];
     uneven_ = chance(0.3);
     step_ = usual_step_;
   }
@@ -61,7 +61,7 @@ class Story {
   double next_step() {
     if (!uneven_) return usual_step_;
     // Now and then a pause that lets every volume expire.
-    if (chance(0.1)) return usual_step_ * (chance(0.2) ? 1e12 : 100.0);
+    if (chance(0.1)) return chance(0.2) ? 1e8 : 100.0 * usual_step_;
     return usual_step_ * random_.uniform(0.05, 3.0);
   }
 

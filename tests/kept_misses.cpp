@@ -1,0 +1,60 @@
+#include "kept_misses.h"
+
+#include <limits>
+
+namespace gridcull::test {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double all_round = View{}.fov;
+
+}  // namespace
+
+std::vector<KeptMiss> kept_misses() {
+  return {
+      {"a volume that ran out since the last frame was left, and that counted as a jump, in push mode only",
+       WorldScript{2,
+                   {{0, 0, 0}, {0, 0, 0}},
+                   1,
+                   "solid",
+                   1,
+                   {Object{5u, Rectangle{{2, 2}}, {{0, 38, 0}}, std::optional<double>{200}, true, false}},
+                   {ScriptFrame{0, {}, {}, {}, {}}, ScriptFrame{1e6, {}, {}, {ScriptMove{5u, {{0, 0, 0}}}}, {}}}}},
+      {"an object added and moved in one frame counted as a jump, in push mode only",
+       WorldScript{2,
+                   {{0, 0, 0}, {0, 0, 0}},
+                   7,
+                   "solid",
+                   1,
+                   {},
+                   {ScriptFrame{0, {}, {}, {}, {}},
+                    ScriptFrame{1,
+                                {},
+                                {Object{47u, Disc{3}, {{0, 0, 0}}, std::optional<double>{0}, true, false}},
+                                {ScriptMove{47u, {{0, 40, 0}}}},
+                                {}}}}},
+      {"a hidden object beyond the lattice around the viewer and nearer than its near plane was not reported",
+       WorldScript{
+           3,
+           {{0, 0, 0}, {0, 0, 0}},
+           2,
+           "solid",
+           1,
+           {Object{53u, Cuboid{{4, 16, 2}}, {{16, 28, 39}}, std::optional<double>{0}, true, false}},
+           {ScriptFrame{-3, {}, {}, {}, {}},
+            ScriptFrame{0, {}, {}, {}, {View{1u, {{16, 27, 39}}, inf, all_round, Frustum{2, 1, 13, inf}, no_id}}}}}},
+      {"after a pause of 1e17 first frame steps volumes that had run out were still believed",
+       WorldScript{2,
+                   {{0, 0, 0}, {32, 32, 0}},
+                   1,
+                   "solid",
+                   1,
+                   {Object{1u, Rectangle{{4, 32}}, {{16, 16, 0}}, std::nullopt, true, true},
+                    Object{2u, Disc{0.5}, {{28, 16, 0}}, std::optional<double>{1}, true, false}},
+                   {ScriptFrame{0, {}, {}, {}, {View{1u, {{4.5, 16, 0}}}}},
+                    ScriptFrame{1e-9, {}, {}, {}, {View{1u, {{4.5, 16, 0}}}}},
+                    ScriptFrame{1e8, {}, {}, {ScriptMove{2u, {{10, 16, 0}}}}, {View{1u, {{4.5, 16, 0}}}}}}}},
+  };
+}
+
+}  // namespace gridcull::test
