@@ -130,8 +130,10 @@ void GridEngine::State::give_volume(Slot slot) {
   const double reach = state.shape->reach();
   double seconds = std::numeric_limits<double>::infinity();
   if (state.max_speed > 0.0) seconds = TbvTerm::spread(state.term, slot, state.renewals++);
-  TbvMatrix::Ball ball{state.pose.position, TbvTerm::radius(state.max_speed, seconds, reach)};
-  expiries.push(slot, now + seconds);
+  // Far from time 0 the sum is rounded, perhaps to a later time: the volume must hold until that.
+  const double expiry = now + seconds;
+  TbvMatrix::Ball ball{state.pose.position, TbvTerm::radius(state.max_speed, expiry - now, reach)};
+  expiries.push(slot, expiry);
   world.tbv.set_ball(slot, ball);
   if (!world.tbv.fits(ball)) {
     set_outside(slot, true);
