@@ -54,6 +54,15 @@ std::vector<KeptMiss> kept_misses() {
                    {ScriptFrame{0, {}, {}, {}, {View{1u, {{4.5, 16, 0}}}}},
                     ScriptFrame{1e-9, {}, {}, {}, {View{1u, {{4.5, 16, 0}}}}},
                     ScriptFrame{1e8, {}, {}, {ScriptMove{2u, {{10, 16, 0}}}}, {View{1u, {{4.5, 16, 0}}}}}}}},
+      {"an expiry that was rounded to a later time, far from time 0, outlived its volume",
+       WorldScript{3,
+                   {{0, 0, 0}, {0, 0, 0}},
+                   0.1,
+                   "solid",
+                   1,
+                   {Object{37u, Sphere{0.1}, {{0, 0, 0}}, std::optional<double>{1e+09}, true, false}},
+                   {ScriptFrame{1000000.0000000029, {}, {}, {ScriptMove{37u, {{1.5, 0.15, 2.1}}}}, {}},
+                    ScriptFrame{1000000.000000003, {}, {}, {ScriptMove{37u, {{1.5, 0.25, 2.1}}}}, {}}}}},
   };
 }
 

@@ -245,12 +245,23 @@ class Run {
 
 }  // namespace
 
+namespace {
+
+/// The rule tells errors apart by their words, not by the numbers in them.
+Fault fault_of(const Error& error) {
+  std::string rule = std::string("error: ") + error.what();
+  std::erase_if(rule, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-'; });
+  return {rule, std::string("threw: ") + error.what()};
+}
+
+}  // namespace
+
 std::optional<Fault> check_world(const WorldScript& script, const MethodEntry& method, const Truth& truth,
                                  Tally& tally) {
   try {
     return Run(script, method, truth, tally).play();
   } catch (const Error& error) {
-    return Fault{"error", std::string("threw ") + error.what()};
+    return fault_of(error);
   }
 }
 
@@ -260,7 +271,7 @@ std::optional<Fault> check_world(const WorldScript& script, const MethodEntry& m
     const Truth truth(script, rays);
     return Run(script, method, truth, ignored).play();
   } catch (const Error& error) {
-    return Fault{"error", std::string("threw ") + error.what()};
+    return fault_of(error);
   }
 }
 

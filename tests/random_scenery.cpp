@@ -267,7 +267,7 @@ Object Scenery::object(const std::vector<Object>& others, double step) {
   o.max_speed.reset();
   if (chance(0.8)) {
     static constexpr double cells_a_frame[] = {0.0, 0.05, 0.3, 1.0, 1.0, 2.5, 20.0};
-    o.max_speed = cells_a_frame[random_.below(7)] * std::min(cell_, 0.1 * extent_) / step;
+    o.max_speed = std::min(1e9, cells_a_frame[random_.below(7)] * std::min(cell_, 0.1 * extent_) / step);
   }
   return o;
 }

@@ -40,8 +40,9 @@ class Story {
       if (f > 0) change(frame);
       ask(frame);
       script_.frames.push_back(std::move(frame));
-      step_ = next_step();
-      time_ += step_;
+      const double now = time_;
+      for (double step = next_step(); !(time_ > now); step *= 2.0) time_ = now + step;
+      step_ = time_ - now;  // as it was rounded
     }
     return std::move(script_);
   }

@@ -1,5 +1,6 @@
 #include "shrink.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -10,7 +11,7 @@ namespace {
 class Shrinker {
  public:
   Shrinker(WorldScript script, const std::function<bool(const WorldScript&)>& fails, int budget)
-      : best_(std::move(script)), fails_(fails), budget_(budget) {}
+      : best_(std::move(script)), fails_(fails), budget_(budget), most_cells_(4.0 * cells(best_)) {}
 
   WorldScript run() {
     while (pass()) {
@@ -19,11 +20,18 @@ class Shrinker {
   }
 
  private:
+  /// Rounder bounds or cells may mean millions of cells: not simpler.
+  static double cells(const WorldScript& s) {
+    double count = 1.0;
+    for (int k = 0; k < s.dimension; ++k) count *= std::max(1.0, (s.bounds.max[k] - s.bounds.min[k]) / s.cell);
+    return count;
+  }
+
   template <class Change>
   bool attempt(Change&& change) {
     if (budget_ <= 0) return false;
     WorldScript candidate = best_;
-    if (!change(candidate)) return false;
+    if (!change(candidate) || !(cells(candidate) <= most_cells_)) return false;
     --budget_;
     if (!fails_(candidate)) return false;
     best_ = std::move(candidate);
@@ -262,6 +270,7 @@ class Shrinker {
   WorldScript best_;
   const std::function<bool(const WorldScript&)>& fails_;
   int budget_;
+  double most_cells_;
 };
 
 }  // namespace
