@@ -14,7 +14,7 @@ namespace gridcull {
 
 class HiddenMovers final : public PositionSource {
  public:
-  /// `movers` discs of 0.25 m that go back and forth at 0.5 .. 2 m/s inside the box; `spheres` of scene A.
+  /// `movers` balls of 0.25 m that go back and forth at 0.5 .. 2 m/s inside the box; `spheres` of scene A.
   HiddenMovers(std::uint32_t spheres, std::uint32_t movers, double cell) : movers_(movers) {
     GenerateOptions options;
     options.count = spheres;
@@ -36,12 +36,12 @@ class HiddenMovers final : public PositionSource {
     }
   }
 
-  /// The box takes x, y 30 .. 70 and z 5 .. 55.
+  /// The box takes x, y 24 .. 76 and z 3 .. 57: the movers stay 16 m away from its faces.
   void fill(Culler& culler) const {
     for (const SceneObject& o : generator_->scene().objects) culler.add(o.object);
     Object box;
     box.id = first_mover_ - 1;
-    box.shape = Cuboid{{40, 40, 50}};
+    box.shape = Cuboid{{52, 52, 54}};
     box.pose.position = {50, 50, 30};
     box.is_static = true;
     culler.add(box);
@@ -78,8 +78,9 @@ class HiddenMovers final : public PositionSource {
   };
   /// Back and forth over 4 m, a triangle wave.
   Vec3 at(const Track& t) const {
-    const double way = std::fmod(t.phase + t.speed * time_, 8.0);
-    return t.centre + t.along * (std::fabs(way - 4.0) - 2.0);
+    const double way = t.phase + t.speed * time_;
+    const double rest = way - 8.0 * static_cast<double>(static_cast<std::int64_t>(way / 8.0));
+    return t.centre + t.along * (std::fabs(rest - 4.0) - 2.0);
   }
 
   std::uint32_t movers_;

@@ -8,9 +8,7 @@
 namespace gridcull {
 
 /// Bits [low, high] of a word; 0 <= low <= high <= 63.
-inline std::uint64_t bit_range(int low, int high) {
-  return (~std::uint64_t{0} >> (63 - (high - low))) << low;
-}
+inline std::uint64_t bit_range(int low, int high) { return (~std::uint64_t{0} >> (63 - (high - low))) << low; }
 
 /// Calls f(index of bit) for every set bit, ascending.
 template <class F>

@@ -21,10 +21,16 @@
 namespace gridcull {
 
 void Face3D::occlude(std::int64_t k, WorkCounts& work) {
-  if (k == depth_.high || !find_caps(k)) return;
-  list_blocks();
+  if (k == depth_.high) return;
+  const bool caps = find_caps(k);
+  // Shadows of different caps that meet in this plane hide more together. One step each plane is enough: what
+  // it hides in the next plane takes part in the step after.
+  list_blocks(solid_);
+  for (const Block& block : blocks_) work.rasters += extrude(block, k, k + 1);
+  if (!caps) return;
+  list_blocks(cap_);
   work.occluders += blocks_.size();
-  for (const Block& block : blocks_) work.rasters += extrude(block, k);
+  for (const Block& block : blocks_) work.rasters += extrude(block, k, depth_.high);
 }
 
 bool Face3D::find_caps(std::int64_t k) {
@@ -89,13 +95,13 @@ void Face3D::grow_caps(std::int64_t rows) {
 }
 
 // A single column or row hides whole cells only on the axis itself, where u k / n or v k / n stays whole.
-void Face3D::list_blocks() {
+void Face3D::list_blocks(const std::vector<std::uint64_t>& bits) {
   blocks_.clear();
   open_ = 0;
   const std::int64_t rows = grown_.v.high - grown_.v.low + 1;
-  std::uint64_t* both = solid_.data();  // its contents are no longer needed
+  std::uint64_t* both = near_.data();
   for (std::int64_t r = 0; r < rows; ++r) {
-    const std::uint64_t* here = cap_.data() + static_cast<std::size_t>(r) * words_;
+    const std::uint64_t* here = bits.data() + static_cast<std::size_t>(r) * words_;
     const std::int64_t v = grown_.v.low + r;
     if (v == 0) {
       const std::size_t before = blocks_.size();
@@ -130,24 +136,24 @@ void Face3D::add_run(std::int64_t v, std::int64_t low, std::int64_t high) {
   blocks_.push_back({v, v + 1, low, high});
 }
 
-std::uint64_t Face3D::extrude(const Block& block, std::int64_t k) {
+std::uint64_t Face3D::extrude(const Block& block, std::int64_t k, std::int64_t last) {
   ScaledUp u_low(block.low, k), v_low(block.v_low, k);
   ScaledDown u_high(block.high, k), v_high(block.v_high, k);
   std::uint64_t rows = 0;
-  for (std::int64_t n = k + 1; n <= depth_.high; ++n) {
+  for (std::int64_t n = k + 1; n <= last; ++n) {
     const CellRange u = intersect({u_low.next(), u_high.next()}, u_), v = intersect({v_low.next(), v_high.next()}, v_);
     // |u| and |v| stay within n by themselves: they are at most k in plane k. What has left the window on a
     // side stays out.
     if (u.empty() || v.empty()) break;
     std::uint64_t* out = hidden_.data() + plane_[static_cast<std::size_t>(n - depth_.low)] +
                          static_cast<std::size_t>(v.low - std::max(v_.low, -n)) * words_;
-    const int first = bit(u.low), last = bit(u.high);
-    if (first >> 6 == last >> 6) {
-      const std::uint64_t mask = bit_range(first & 63, last & 63);
-      out += first >> 6;
+    const int from = bit(u.low), to = bit(u.high);
+    if (from >> 6 == to >> 6) {
+      const std::uint64_t mask = bit_range(from & 63, to & 63);
+      out += from >> 6;
       for (std::int64_t i = v.low; i <= v.high; ++i, out += words_) *out |= mask;
     } else {
-      for (std::int64_t i = v.low; i <= v.high; ++i, out += words_) set_run(out, first, last);
+      for (std::int64_t i = v.low; i <= v.high; ++i, out += words_) set_run(out, from, to);
     }
     rows += static_cast<std::uint64_t>(v.high - v.low + 1);
   }

@@ -40,7 +40,7 @@ void GridEngine::State::settle_jumps(double time) {
     // A volume past its term is renewed in expire(): leaving it is no jump (the pull rule has none there either).
     if (state.place == Place::hidden && expiries.expiry(p.slot) >= time) {
       const auto& ball = world.tbv.ball(p.slot);
-      escaped = glm::length(state.pose.position - ball.centre) + state.shape->reach() > ball.radius * (1.0 + 1e-12);
+      escaped = glm::length(state.pose.position - ball.centre) + state.reach > ball.radius * (1.0 + 1e-12);
     }
     if ((too_far || escaped) && !state.jumped) {
       state.jumped = true;
@@ -57,19 +57,16 @@ void GridEngine::State::settle_jumps(double time) {
   jumped.clear();
 }
 
-// Criterion 2 of the paper: hidden and expired, so a new term; twice as long where the larger volume stays
-// clear of bricks that somebody sees, since it would be revealed there at once.
+// Criterion 2 of the paper: hidden and expired, so a new term.
 void GridEngine::State::expire() {
   expired.clear();
   expiries.pop_expired(now, expired);
   for (const Slot slot : expired) {
     ObjectState& state = world.objects[slot];
     ++stats.tbv_expired;
-    state.pose = world.read(slot);
+    world.read_alone(slot);
     take_volume(slot);
-    const double longer = terms.longer(state.term, state.max_speed);
-    const TbvMatrix::Ball grown{state.pose.position, TbvTerm::radius(state.max_speed, longer, state.shape->reach())};
-    if (world.tbv.fits(grown) && !world.near_seen(grown)) state.term = longer;
+    lengthen_term(state);
     give_volume(slot);
   }
 }
@@ -90,7 +87,7 @@ void GridEngine::State::discretise() {
   for (const Slot slot : active) {
     ObjectState& state = world.objects[slot];
     const Pose old = state.pose;
-    state.pose = world.read(slot);
+    world.read_alone(slot);
     if (old.position != state.pose.position || old.orientation.w != state.pose.orientation.w ||
         old.orientation.x != state.pose.orientation.x || old.orientation.y != state.pose.orientation.y ||
         old.orientation.z != state.pose.orientation.z) {
@@ -158,6 +155,9 @@ void GridEngine::State::merge(std::size_t views) {
 
 // Criterion 1 of the paper: not in anybody's PVS and without a volume, so it gets one.
 void GridEngine::State::hide_unseen() {
+  // Backwards: what was discretised last hangs first in its bricks' lists, so that even the first frame, which
+  // hides most of a world, finds every entry at once.
+  hiding.clear();
   std::size_t kept = 0;
   for (const Slot slot : active) {
     ObjectState& state = world.objects[slot];
@@ -171,10 +171,11 @@ void GridEngine::State::hide_unseen() {
     if (keep) {
       active[kept++] = slot;
     } else {
-      hide(slot);
+      hiding.push_back(slot);
     }
   }
   active.resize(kept);
+  std::for_each(hiding.rbegin(), hiding.rend(), [&](Slot slot) { hide(slot); });
 }
 
 }  // namespace gridcull

@@ -39,6 +39,7 @@ void GridEngine::State::add(const Object& object) {
   const Slot slot = world.objects.add(object.id);
   ObjectState& state = world.objects[slot];
   state.shape.emplace(std::move(shape));
+  state.reach = state.shape->reach();
   state.pose = object.pose;
   state.occluder = object.occluder;
   state.is_static = object.is_static;
@@ -119,20 +120,33 @@ void GridEngine::State::activate(Slot slot) {
 
 void GridEngine::State::hide(Slot slot) {
   leave_grid(slot);
-  world.objects[slot].place = Place::hidden;
+  ObjectState& state = world.objects[slot];
+  state.place = Place::hidden;
+  while (lengthen_term(state)) {
+  }
   give_volume(slot);
+}
+
+// A volume that reaches into bricks that somebody sees would be revealed at once.
+bool GridEngine::State::lengthen_term(ObjectState& state) {
+  if (!(state.max_speed > 0.0)) return false;
+  const double longer = terms.longer(state.term, state.max_speed);
+  if (!(longer > state.term)) return false;
+  const TbvMatrix::Ball grown{state.pose.position, TbvTerm::radius(state.max_speed, longer, state.reach)};
+  if (!world.tbv.fits(grown) || world.near_seen(grown)) return false;
+  state.term = longer;
+  return true;
 }
 
 // Solid volumes are always right; an outline is used only where the engine can prove it: it lies wholly in the
 // lattice and encloses no viewer now, and viewers that jump are checked against it (note_viewers).
 void GridEngine::State::give_volume(Slot slot) {
   ObjectState& state = world.objects[slot];
-  const double reach = state.shape->reach();
   double seconds = std::numeric_limits<double>::infinity();
   if (state.max_speed > 0.0) seconds = TbvTerm::spread(state.term, slot, state.renewals++);
   // Far from time 0 the sum is rounded, perhaps to a later time: the volume must hold until that.
   const double expiry = now + seconds;
-  TbvMatrix::Ball ball{state.pose.position, TbvTerm::radius(state.max_speed, expiry - now, reach)};
+  TbvMatrix::Ball ball{state.pose.position, TbvTerm::radius(state.max_speed, expiry - now, state.reach)};
   expiries.push(slot, expiry);
   world.tbv.set_ball(slot, ball);
   if (!world.tbv.fits(ball)) {

@@ -37,6 +37,8 @@ struct GridEngine::State {
   void activate(Slot slot);
   void hide(Slot slot);
   void give_volume(Slot slot);
+  /// Doubles the object's term if the volume it then gets stays clear of what somebody sees.
+  bool lengthen_term(ObjectState& state);
   void take_volume(Slot slot);
   void leave_grid(Slot slot);
   void set_outside(Slot slot, bool outside);
@@ -66,6 +68,7 @@ struct GridEngine::State {
   std::vector<std::uint64_t> pushed_frame;  // per slot: the frame for which `pushed` holds its old position
   std::vector<std::uint8_t> seen;           // per slot: in somebody's PVS in this frame
   std::vector<Slot> expired;
+  std::vector<Slot> hiding;
   std::vector<ViewResult> results;               // per view
   std::vector<std::unique_ptr<ViewTask>> tasks;  // per thread
   CoverScratch scratch;

@@ -64,10 +64,11 @@ class Face3D {
   void gather_opaque(std::int64_t k, std::int64_t v, std::size_t w0, std::size_t w1, std::uint64_t* out) const;
   bool find_caps(std::int64_t k);
   void grow_caps(std::int64_t rows);
-  void list_blocks();
+  /// Cuts a bitmap with rows of grown_ into blocks.
+  void list_blocks(const std::vector<std::uint64_t>& bits);
   void add_run(std::int64_t v, std::int64_t low, std::int64_t high);
-  /// Marks the cells behind a block of plane k as hidden. Returns the number of rows written.
-  std::uint64_t extrude(const Block& block, std::int64_t k);
+  /// Marks the cells behind a block of plane k as hidden, up to plane `last`. Returns the number of rows written.
+  std::uint64_t extrude(const Block& block, std::int64_t k, std::int64_t last);
   int bit(std::int64_t u) const { return static_cast<int>(u - u_base_); }
 
   ViewGrid* grid_ = nullptr;
@@ -87,10 +88,10 @@ class Face3D {
   std::vector<std::uint64_t> found_;  // visible cells, rows of plane_patch(k)
   std::vector<std::uint64_t> solid_;  // opaque or hidden cells, rows of grown_
   std::vector<std::uint64_t> seeds_;  // opaque visible cells, rows of grown_
-  std::vector<std::uint64_t> near_;   // seeds of one row and those beside it
+  std::vector<std::uint64_t> near_;   // one row of scratch
   /// Rows beside an opaque visible cell that its cap may take. Caps without limit cost 2.5 times the rows for 0.5 %
   /// fewer objects (5,000 spheres, 1 m cells): what lies farther off was hidden before, by the caps that hid it.
-  static constexpr std::int64_t reach = 2;
+  static constexpr std::int64_t reach = 1;
   std::vector<std::uint64_t> cap_;  // caps, rows of grown_
   std::vector<Block> blocks_;       // of the caps in hand
   std::size_t open_ = 0;            // blocks_ from here on may grow by the next row

@@ -21,14 +21,12 @@ void check_pose(const Pose& pose, ObjectId object) {
 }
 
 bool GridWorld::near_seen(const TbvMatrix::Ball& ball) const {
-  const int s = lattice.brick_shift();
-  const Cell low = lattice.cell_of(ball.centre - Vec3(ball.radius)),
-             high = lattice.cell_of(ball.centre + Vec3(ball.radius));
+  const TbvMatrix::BlockSpan span = tbv.span_of(ball);
   const auto now = static_cast<std::uint32_t>(frame);
-  for (std::int64_t z = low.z >> s; z <= high.z >> s; ++z) {
-    for (std::int64_t y = low.y >> s; y <= high.y >> s; ++y) {
-      const std::size_t row = lattice.brick_index({0, y, z});
-      for (std::int64_t x = low.x >> s; x <= high.x >> s; ++x) {
+  for (std::int64_t z = span.low[2]; z <= span.high[2]; ++z) {
+    for (std::int64_t y = span.low[1]; y <= span.high[1]; ++y) {
+      const std::size_t row = tbv.block_index(0, y, z);
+      for (std::int64_t x = span.low[0]; x <= span.high[0]; ++x) {
         if (now - seen_in[row + static_cast<std::size_t>(x)] <= 1) return true;
       }
     }
@@ -38,6 +36,10 @@ bool GridWorld::near_seen(const TbvMatrix::Ball& ball) const {
 
 Pose GridWorld::read(Slot slot) {
   const std::lock_guard lock(reading_);
+  return read_alone(slot);
+}
+
+const Pose& GridWorld::read_alone(Slot slot) {
   ObjectState& state = objects[slot];
   if (state.read_frame != frame) {
     if (source != nullptr) {

@@ -17,7 +17,7 @@ namespace gridcull {
 
 struct GridWorld {
   explicit GridWorld(const Lattice& cells)
-      : lattice(cells), matrix(lattice), tbv(lattice), hollow(lattice), seen_in(lattice.brick_count(), 0) {}
+      : lattice(cells), matrix(lattice), tbv(lattice), hollow(lattice), seen_in(tbv.block_count(), 0) {}
 
   Lattice lattice;
   IdentifierMatrix matrix;  // I, O, O_s
@@ -27,22 +27,24 @@ struct GridWorld {
   /// Slots that reach beyond the lattice, active objects and hidden volumes: tested one by one.
   std::vector<Slot> outside;
 
-  /// Per brick: the last frame (low 32 bits) in which somebody saw a cell of it.
+  /// Per block of T: the last frame (low 32 bits) in which somebody saw a cell of it.
   std::vector<std::uint32_t> seen_in;
 
   PositionSource* source = nullptr;
-  std::uint64_t frame = 0;
+  std::uint64_t frame = 1;  ///< counts queries from 2, so that nothing counts as seen before the first
   std::uint64_t positions_read = 0;
 
   /// Any thread, while views are answered: all write the same value.
-  void note_seen(std::size_t brick) {
-    std::atomic_ref(seen_in[brick]).store(static_cast<std::uint32_t>(frame), std::memory_order_relaxed);
+  void note_seen(std::size_t block) {
+    std::atomic_ref(seen_in[block]).store(static_cast<std::uint32_t>(frame), std::memory_order_relaxed);
   }
-  /// Whether a brick that the ball reaches was seen in this or the last frame. The ball lies in the lattice.
+  /// Whether a block that the ball reaches was seen in this or the last frame. The ball lies in the lattice.
   bool near_seen(const TbvMatrix::Ball& ball) const;
 
   /// The object's pose in this frame: asked from the source once a frame, counted. Any thread.
   Pose read(Slot slot);
+  /// The same while no views are being answered.
+  const Pose& read_alone(Slot slot);
 
  private:
   std::mutex reading_;

@@ -113,11 +113,12 @@ Cell Lattice::cell_of(const Vec3& point) const {
 }
 
 Cell Lattice::brick_corner(std::size_t brick) const {
-  const auto b = static_cast<std::int64_t>(brick);
+  // Brick indices stay below 2^32: 32-bit divisions are the cheap ones.
+  const auto b = static_cast<std::uint32_t>(brick), nx = static_cast<std::uint32_t>(bricks_.x),
+             ny = static_cast<std::uint32_t>(bricks_.y);
+  const std::uint32_t row = b / nx, z = row / ny;
   const int s = brick_shift();
-  const std::int64_t z = b / (bricks_.x * bricks_.y);
-  const std::int64_t rest = b - z * bricks_.x * bricks_.y;
-  return {(rest % bricks_.x) << s, (rest / bricks_.x) << s, z << s};
+  return {std::int64_t{b - row * nx} << s, std::int64_t{row - z * ny} << s, std::int64_t{z} << s};
 }
 
 std::uint64_t Lattice::brick_cells(std::size_t brick) const {

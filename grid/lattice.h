@@ -43,6 +43,14 @@ class Lattice {
   /// The i with boundary(i) <= metres < boundary(i + 1), also beyond the lattice; clamped to +-2^40.
   std::int64_t index(int axis, double metres) const;
   Cell cell_of(const Vec3& point) const;
+  /// As index() but cheaper and only nearly so: right for every point farther than margin() from a cell
+  /// boundary, a neighbour otherwise; clamped to the lattice. The same input gives the same answer.
+  std::int64_t near_index(int axis, double metres) const {
+    const double t = (metres - origin_[axis]) / cell_;
+    const std::int64_t last = (axis == 0 ? cells_.x : axis == 1 ? cells_.y : cells_.z) - 1;
+    if (!(t > 0.0)) return 0;
+    return t < static_cast<double>(last) ? static_cast<std::int64_t>(t) : last;
+  }
   bool holds(const Cell& c) const {
     return c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x < cells_.x && c.y < cells_.y && c.z < cells_.z;
   }

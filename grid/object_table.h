@@ -34,6 +34,7 @@ struct ObjectState {
   std::uint32_t renewals = 0;    ///< volumes given so far, for the jitter
   std::uint64_t read_frame = 0;  ///< frame in which the pose was last read
   double max_speed = -1.0;       ///< metres a second; below 0: unknown
+  double reach = 0.0;            ///< metres: reach_of(shape), kept beside what is read with it
   double term = 0.0;             ///< seconds: the next volume's longest validity
   Pose pose{};
   std::optional<PreparedShape> shape;

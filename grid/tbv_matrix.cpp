@@ -1,12 +1,16 @@
 #include "gridcull/grid/tbv_matrix.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 namespace gridcull {
 
-TbvMatrix::TbvMatrix(const Lattice& lattice) : lattice_(lattice), counts_(lattice.brick_count(), 0) {
+TbvMatrix::TbvMatrix(const Lattice& lattice) : lattice_(lattice), box_(lattice.box()) {
+  const Cell b = lattice.bricks();
+  blocks_ = {(b.x + 1) / 2, (b.y + 1) / 2, (b.z + 1) / 2};
+  counts_.assign(static_cast<std::size_t>(blocks_.x * blocks_.y * blocks_.z), 0);
   // Level 0 is a brick wide; the last one holds the whole lattice in one cell.
   const Cell n = lattice.cells();
   for (int shift = lattice.brick_shift();; ++shift) {
@@ -22,10 +26,9 @@ TbvMatrix::TbvMatrix(const Lattice& lattice) : lattice_(lattice), counts_(lattic
 }
 
 bool TbvMatrix::fits(const Ball& ball) const {
-  const Bounds box = lattice_.box();
   const double r = ball.radius + 2.0 * lattice_.margin();
   for (int k = 0; k < lattice_.dimension(); ++k) {
-    if (!(ball.centre[k] - r >= box.min[k] && ball.centre[k] + r <= box.max[k])) return false;
+    if (!(ball.centre[k] - r >= box_.min[k] && ball.centre[k] + r <= box_.max[k])) return false;
   }
   return true;
 }
@@ -43,15 +46,25 @@ std::uint32_t TbvMatrix::level_cell(const Level& level, const Cell& c) const {
                                     (c.x >> level.shift));
 }
 
+TbvMatrix::BlockSpan TbvMatrix::span_of(const Ball& ball) const {
+  // The second margin covers what near_index() may be off.
+  const double r = ball.radius + 2.0 * lattice_.margin();
+  BlockSpan span{};
+  const int shift = lattice_.brick_shift() + 1;
+  for (int k = 0; k < lattice_.dimension(); ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    span.low[axis] = lattice_.near_index(k, ball.centre[k] - r) >> shift;
+    span.high[axis] = lattice_.near_index(k, ball.centre[k] + r) >> shift;
+  }
+  return span;
+}
+
 void TbvMatrix::count(const Ball& ball, std::uint32_t step) {
-  const int s = lattice_.brick_shift();
-  const Vec3 r(ball.radius + lattice_.margin());
-  const Cell low = lattice_.cell_of(ball.centre - r), high = lattice_.cell_of(ball.centre + r);
-  const std::int64_t z0 = low.z >> s, z1 = high.z >> s;
-  for (std::int64_t z = z0; z <= z1; ++z) {
-    for (std::int64_t y = low.y >> s; y <= high.y >> s; ++y) {
-      const std::size_t row = lattice_.brick_index({0, y, z});
-      for (std::int64_t x = low.x >> s; x <= high.x >> s; ++x) counts_[row + static_cast<std::size_t>(x)] += step;
+  const BlockSpan span = span_of(ball);
+  for (std::int64_t z = span.low[2]; z <= span.high[2]; ++z) {
+    for (std::int64_t y = span.low[1]; y <= span.high[1]; ++y) {
+      const std::size_t row = block_index(0, y, z);
+      for (std::int64_t x = span.low[0]; x <= span.high[0]; ++x) counts_[row + static_cast<std::size_t>(x)] += step;
     }
   }
 }
@@ -62,7 +75,10 @@ void TbvMatrix::insert(Slot slot, const Ball& ball) {
   link.level = level_for(ball.radius);
   Level& level = levels_[link.level];
   if (level.homes.empty()) level.homes.resize(static_cast<std::size_t>(level.cells.x * level.cells.y * level.cells.z));
-  link.cell = level_cell(level, lattice_.cell_of(ball.centre));
+  const auto index = [&](int axis) {
+    return axis < lattice_.dimension() ? lattice_.near_index(axis, ball.centre[axis]) : 0;
+  };
+  link.cell = level_cell(level, {index(0), index(1), index(2)});
   Home& home = level.homes[link.cell];
   link.before = none;
   link.after = home.head;
@@ -96,7 +112,26 @@ void TbvMatrix::erase(Slot slot) {
   count(balls_[slot], static_cast<std::uint32_t>(-1));
 }
 
-TbvMatrix::BrickLines TbvMatrix::lines_of(const Cell& corner) const {
+namespace {
+
+/// The cells of a brick that `bits` touches along each axis, as bits 0 .. edge - 1.
+std::array<unsigned, 3> shadows(std::uint64_t bits, bool solid) {
+  std::array<unsigned, 3> along{};
+  const int edge = solid ? 4 : 8;
+  const std::uint64_t row_mask = solid ? 0xF : 0xFF;
+  for (int row = 0; row < 64 / edge; ++row) {
+    const auto cells = static_cast<unsigned>((bits >> (edge * row)) & row_mask);
+    if (cells == 0) continue;
+    along[0] |= cells;
+    along[1] |= 1u << (row % edge);
+    along[2] |= 1u << (row / edge);
+  }
+  return along;
+}
+
+}  // namespace
+
+TbvMatrix::BrickLines TbvMatrix::lines_of(const Cell& corner, std::uint64_t bits) const {
   BrickLines lines{};
   const std::array<std::int64_t, 3> first{corner.x, corner.y, corner.z};
   for (int k = 0; k < lattice_.dimension(); ++k) {
@@ -107,10 +142,12 @@ TbvMatrix::BrickLines TbvMatrix::lines_of(const Cell& corner) const {
   lines.low = Vec3(-std::numeric_limits<double>::infinity());
   lines.high = Vec3(std::numeric_limits<double>::infinity());
   // Twice the margin of the ball test, so that the filter never says no to what that would find.
+  const std::array<unsigned, 3> along = shadows(bits, lattice_.dimension() == 3);
   for (int k = 0; k < lattice_.dimension(); ++k) {
-    const auto& at = lines.at[static_cast<std::size_t>(k)];
-    lines.low[k] = at[0] - 2.0 * lattice_.margin();
-    lines.high[k] = at[static_cast<std::size_t>(lattice_.brick_edge())] + 2.0 * lattice_.margin();
+    const auto axis = static_cast<std::size_t>(k);
+    const auto& at = lines.at[axis];
+    lines.low[k] = at[static_cast<std::size_t>(std::countr_zero(along[axis]))] - 2.0 * lattice_.margin();
+    lines.high[k] = at[static_cast<std::size_t>(std::bit_width(along[axis]))] + 2.0 * lattice_.margin();
   }
   return lines;
 }

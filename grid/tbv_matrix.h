@@ -3,8 +3,8 @@
 //
 // The paper enters a volume's id into every cell that it spans. Here a volume is entered once, in the cell
 // of the level whose side is at least its radius and that holds its centre ("loose": it reaches at most a
-// side beyond), and every brick counts the volumes that may touch it. A brick that nobody's volume
-// may touch costs one load in the traversal; renewing a volume costs a few stores whatever its size.
+// side beyond), and every block of two bricks along each axis counts the volumes that may touch it. A block that
+// nobody's volume may touch costs one load in the traversal; renewing a volume costs a few stores.
 #pragma once
 
 #include <algorithm>
@@ -30,6 +30,23 @@ class TbvMatrix {
     if (slots > links_.size()) links_.resize(slots), balls_.resize(slots);
   }
 
+  /// Blocks are two bricks wide: coarse enough that a ball lies in a few of them. First and last along each
+  /// axis that hold every cell the ball may touch.
+  struct BlockSpan {
+    std::array<std::int64_t, 3> low, high;
+  };
+  BlockSpan span_of(const Ball& ball) const;
+  std::size_t block_index(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    return static_cast<std::size_t>((z * blocks_.y + y) * blocks_.x + x);
+  }
+  std::size_t block_count() const { return counts_.size(); }
+  /// The block that holds a brick.
+  std::size_t block_of(std::size_t brick) const {
+    const Cell corner = lattice_.brick_corner(brick);
+    const int shift = lattice_.brick_shift() + 1;
+    return block_index(corner.x >> shift, corner.y >> shift, corner.z >> shift);
+  }
+
   /// Whether the ball lies wholly in the lattice, so that insert() takes it.
   bool fits(const Ball& ball) const;
   /// The slot must not be in the matrix; `ball` must fit.
@@ -41,8 +58,8 @@ class TbvMatrix {
   void set_ball(Slot slot, const Ball& ball) { balls_[slot] = ball; }
   std::uint64_t size() const { return size_; }
 
-  /// Whether some volume may touch the brick.
-  bool may_touch(std::size_t brick) const { return counts_[brick] != 0; }
+  /// Whether some volume may touch the block.
+  bool may_touch(std::size_t block) const { return counts_[block] != 0; }
 
   /// Calls f(slot) for every volume that may touch one of the cells `bits` of the brick and for which
   /// wanted(slot). f must not change the matrix. Returns the number of volumes looked at.
@@ -75,14 +92,14 @@ class TbvMatrix {
 
   std::uint32_t level_for(double radius) const;
   std::uint32_t level_cell(const Level& level, const Cell& c) const;
-  /// Adds `step` to the count of every brick that the ball's box touches.
+  /// Adds `step` to the count of every block that the ball's box touches.
   void count(const Ball& ball, std::uint32_t step);
-  /// Boundaries of a brick's cells along each axis, metres.
+  /// Boundaries of a brick's cells along each axis, and the box around the cells asked about; metres.
   struct BrickLines {
     std::array<std::array<double, 9>, 3> at;
-    Vec3 low, high;  // the brick's box, grown by the margin
+    Vec3 low, high;  // grown by the margin
   };
-  /// Cheap filter: whether the ball reaches the brick's box.
+  /// Cheap filter: whether the ball reaches the box.
   static bool near(const Ball& ball, const BrickLines& lines) {
     const auto gap = [&](int k) {
       return std::max({lines.low[k] - ball.centre[k], ball.centre[k] - lines.high[k], 0.0});
@@ -94,12 +111,14 @@ class TbvMatrix {
     return box.min.x <= lines.high.x && box.max.x >= lines.low.x && box.min.y <= lines.high.y &&
            box.max.y >= lines.low.y && box.min.z <= lines.high.z && box.max.z >= lines.low.z;
   }
-  BrickLines lines_of(const Cell& corner) const;
+  BrickLines lines_of(const Cell& corner, std::uint64_t bits) const;
   bool ball_touches(const Ball& ball, const BrickLines& lines, std::uint64_t bits) const;
 
   const Lattice& lattice_;
   std::vector<Level> levels_;
-  std::vector<std::uint32_t> counts_;
+  Cell blocks_;                        // along each axis
+  std::vector<std::uint32_t> counts_;  // per block
+  Bounds box_;                         // of the lattice
   std::vector<Link> links_;
   std::vector<Ball> balls_;
   std::uint64_t size_ = 0;
@@ -109,7 +128,7 @@ template <class W, class F>
 std::uint64_t TbvMatrix::touching(std::size_t brick, std::uint64_t bits, W&& wanted, F&& f) const {
   std::uint64_t looked = 0;
   const Cell corner = lattice_.brick_corner(brick);
-  const BrickLines lines = lines_of(corner);
+  const BrickLines lines = lines_of(corner, bits);
   const std::int64_t edge = lattice_.brick_edge();
   for (const Level& level : levels_) {
     if (level.size == 0) continue;

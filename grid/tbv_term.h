@@ -11,8 +11,8 @@
 namespace gridcull {
 
 /// A term is the longest validity that an object's next volume may get. It starts where the object could move
-/// one cell, doubles when a volume expires unseen, halves when it is revealed, and stays between a quarter
-/// of a cell and `widest` cells of possible movement.
+/// one cell (more where nobody looks), doubles when a volume expires unseen, halves when it is revealed, and
+/// stays between a quarter of a cell and `widest` cells of possible movement.
 class TbvTerm {
  public:
   explicit TbvTerm(double cell) : cell_(cell) {}
@@ -39,7 +39,7 @@ class TbvTerm {
   }
 
  private:
-  static constexpr double widest = 2.0;  // cells
+  static constexpr double widest = 3.0;  // cells
   double cell_;
 };
 

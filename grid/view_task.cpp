@@ -146,7 +146,8 @@ void ViewTask::traverse() {
 void ViewTask::look(std::size_t brick, std::uint64_t bits) {
   GridWorld& world = *world_;
   const std::size_t lattice_brick = grid_.lattice_brick(brick);
-  const bool solid = world.tbv.may_touch(lattice_brick), hollow = world.hollow.may_touch(lattice_brick);
+  const bool solid = world.tbv.may_touch(world.tbv.block_of(lattice_brick)),
+             hollow = world.hollow.may_touch(lattice_brick);
   if (!solid && !hollow) return;
   pending_.clear();
   const auto wanted = [&](Slot slot) { return stamps_[slot] != stamp_ && slot != rides_; };
@@ -236,7 +237,7 @@ void ViewTask::collect_brick(std::size_t brick) {
   const IdentifierMatrix& matrix = world_->matrix;
   const std::uint64_t visible = grid_.visible[brick];
   const std::size_t lattice_brick = grid_.lattice_brick(brick);
-  world_->note_seen(lattice_brick);
+  world_->note_seen(world_->tbv.block_of(lattice_brick));
   for (std::uint32_t i = matrix.first_in_brick(lattice_brick); i != none;) {
     const auto& entry = matrix.entry(i);
     ++answer_->work.object_tests;
