@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include <tbb/task_arena.h>
+
 #include "gridcull/grid/engine.h"
 #include "gridcull/grid/expiry_queue.h"
 #include "gridcull/grid/grid_world.h"
@@ -71,6 +73,7 @@ struct GridEngine::State {
   std::vector<Slot> hiding;
   std::vector<ViewResult> results;               // per view
   std::vector<std::unique_ptr<ViewTask>> tasks;  // per thread
+  std::unique_ptr<tbb::task_arena> arena;        // made when first needed
   CoverScratch scratch;
   Cover cover_buffer;
 
