@@ -229,6 +229,17 @@ PreparedShape::PreparedShape(PreparedShape&&) noexcept = default;
 PreparedShape& PreparedShape::operator=(PreparedShape&&) noexcept = default;
 
 const Shape& PreparedShape::shape() const { return detail_->shape; }
+std::uint64_t PreparedShape::bytes() const {
+  std::uint64_t bytes = sizeof(Detail) + detail_->outline.capacity() * sizeof(Vec2) +
+                        detail_->sides.capacity() * sizeof(ConvexSlab) + detail_->edges.capacity() * sizeof(HullEdge);
+  const auto add = [&](const auto& shape) {
+    if constexpr (requires { shape.vertices; }) bytes += shape.vertices.capacity() * sizeof(shape.vertices[0]);
+    if constexpr (requires { shape.triangles; }) bytes += shape.triangles.capacity() * sizeof(shape.triangles[0]);
+  };
+  std::visit(add, detail_->shape);
+  return bytes;
+}
+
 double PreparedShape::reach() const { return detail_->reach; }
 
 void PreparedShape::cover(const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {

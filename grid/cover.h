@@ -40,6 +40,8 @@ class PreparedShape {
 
   const Shape& shape() const;
   double reach() const;  ///< reach_of(shape)
+  /// Bytes held on the heap: the shape and what was computed for it.
+  std::uint64_t bytes() const;
 
   /// Fills `out`. touched is an over-estimate, opaque an under-estimate (empty for thin shapes).
   void cover(const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const;

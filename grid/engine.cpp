@@ -95,6 +95,10 @@ MemoryUse GridEngine::memory() const {
                  s.world.seen_in.size() * sizeof(std::uint32_t);
   use.entries = s.world.matrix.entry_bytes() + s.world.tbv.entry_bytes() + s.world.hollow.entry_bytes();
   use.objects = s.world.objects.bytes() + s.expiries.bytes();
+  for (Slot slot = 0; slot < s.world.objects.size(); ++slot) {
+    const ObjectState& state = s.world.objects[slot];
+    if (state.shape) use.objects += state.shape->bytes();
+  }
   for (const auto& task : s.tasks) use.viewers += task->bytes();
   return use;
 }

@@ -144,7 +144,7 @@ void GridEngine::State::merge(std::size_t views) {
       ObjectState& state = world.objects[slot];
       if (state.place != Place::hidden) continue;  // another view revealed it too
       ++stats.tbv_revealed;
-      if (state.max_speed > 0.0) state.term = terms.shorter(state.term, state.max_speed);
+      if (state.max_speed > 0.0) state.term = static_cast<float>(terms.shorter(state.term, state.max_speed));
       activate(slot);
       // In I from now on. Not seen by anyone, it stays there for a few frames: near the border of what is
       // visible a new volume would be revealed at once, and that costs more than a discretisation.

@@ -44,15 +44,13 @@ void GridEngine::State::add(const Object& object) {
   state.occluder = object.occluder;
   state.is_static = object.is_static;
   state.max_speed = object.max_speed ? *object.max_speed : -1.0;
-  if (state.max_speed > 0.0) state.term = terms.first(state.max_speed);
+  if (state.max_speed > 0.0) state.term = static_cast<float>(terms.first(state.max_speed));
   state.place = Place::waiting;
   waiting.push_back(slot);
   const std::size_t slots = world.objects.size();
   world.tbv.reserve(slots);
   world.hollow.reserve(slots);
   expiries.reserve(slots);
-  pushed_frame.resize(slots, 0);
-  pushed_frame[slot] = 0;
   seen.resize(slots, 0);
   seen[slot] = 0;
 }
@@ -70,8 +68,9 @@ void GridEngine::State::move(Slot slot, const Pose& pose) {
   ObjectState& state = world.objects[slot];
   // A moving object that waits was added since the last frame: it has no place there to have jumped from.
   const bool has_past = state.moves() && state.place != Place::waiting;
-  if (has_past && state.max_speed >= 0.0 && pushed_frame[slot] != world.frame + 1) {
-    pushed_frame[slot] = world.frame + 1;
+  const auto next_frame = static_cast<std::uint32_t>(world.frame + 1);
+  if (has_past && state.max_speed >= 0.0 && state.pushed_frame != next_frame) {
+    state.pushed_frame = next_frame;
     pushed.push_back({slot, state.pose.position});
   }
   state.pose = pose;
@@ -130,7 +129,7 @@ void GridEngine::State::hide(Slot slot) {
 // A volume that reaches into bricks that somebody sees would be revealed at once.
 bool GridEngine::State::lengthen_term(ObjectState& state) {
   if (!(state.max_speed > 0.0)) return false;
-  const double longer = terms.longer(state.term, state.max_speed);
+  const auto longer = static_cast<float>(terms.longer(state.term, state.max_speed));
   if (!(longer > state.term)) return false;
   const TbvMatrix::Ball grown{state.pose.position, TbvTerm::radius(state.max_speed, longer, state.reach)};
   if (!world.tbv.fits(grown) || world.near_seen(grown)) return false;

@@ -67,8 +67,7 @@ struct GridEngine::State {
   std::vector<Slot> waiting;  // added, moved by hand, or jumped: to be discretised at the next frame
   std::vector<Pushed> pushed;
   std::vector<Slot> jumped;
-  std::vector<std::uint64_t> pushed_frame;  // per slot: the frame for which `pushed` holds its old position
-  std::vector<std::uint8_t> seen;           // per slot: in somebody's PVS in this frame
+  std::vector<std::uint8_t> seen;  // per slot: in somebody's PVS in this frame
   std::vector<Slot> expired;
   std::vector<Slot> hiding;
   std::vector<ViewResult> results;               // per view

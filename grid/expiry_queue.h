@@ -14,6 +14,7 @@ class ExpiryQueue {
  public:
   /// Room for slots 0 .. count - 1.
   void reserve(std::size_t count) {
+    if (count > links_.capacity()) links_.reserve(count + count / 8);
     if (count > links_.size()) links_.resize(count);
   }
 

@@ -41,13 +41,13 @@ Pose GridWorld::read(Slot slot) {
 
 const Pose& GridWorld::read_alone(Slot slot) {
   ObjectState& state = objects[slot];
-  if (state.read_frame != frame) {
+  if (state.read_frame != static_cast<std::uint32_t>(frame)) {
     if (source != nullptr) {
       const Pose pose = source->pose(state.id);
       check_pose(pose, state.id);
       state.pose = pose;
     }
-    state.read_frame = frame;
+    state.read_frame = static_cast<std::uint32_t>(frame);
     ++positions_read;
   }
   return state.pose;

@@ -13,6 +13,7 @@ std::uint32_t IdentifierMatrix::allocate() {
     free_ = entries_[index].next_of_object;
     return index;
   }
+  if (entries_.size() == entries_.capacity()) entries_.reserve(entries_.size() + entries_.size() / 8 + 64);
   entries_.push_back({});
   static_.push_back(false);
   return static_cast<std::uint32_t>(entries_.size() - 1);

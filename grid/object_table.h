@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include "gridcull/core/object.h"
 #include "gridcull/grid/cover.h"
+#include "gridcull/grid/id_slots.h"
 #include "gridcull/grid/identifier_matrix.h"
 
 namespace gridcull {
@@ -25,17 +25,18 @@ struct ObjectState {
   Place place = Place::gone;
   bool occluder = true;
   bool is_static = false;
-  bool stale = false;            ///< active: the pose changed since it was discretised
-  bool outside = false;          ///< active: reaches beyond the lattice; hidden: its volume does
-  bool hollow = false;           ///< hidden: its volume is entered as an outline
-  bool jumped = false;           ///< announced for the frame to come
-  std::uint8_t patience = 0;     ///< active: frames it may still be unseen before it is hidden again
-  std::uint32_t entries = none;  ///< chain in the identifier matrix
-  std::uint32_t renewals = 0;    ///< volumes given so far, for the jitter
-  std::uint64_t read_frame = 0;  ///< frame in which the pose was last read
-  double max_speed = -1.0;       ///< metres a second; below 0: unknown
-  double reach = 0.0;            ///< metres: reach_of(shape), kept beside what is read with it
-  double term = 0.0;             ///< seconds: the next volume's longest validity
+  bool stale = false;              ///< active: the pose changed since it was discretised
+  bool outside = false;            ///< active: reaches beyond the lattice; hidden: its volume does
+  bool hollow = false;             ///< hidden: its volume is entered as an outline
+  bool jumped = false;             ///< announced for the frame to come
+  std::uint8_t patience = 0;       ///< active: frames it may still be unseen before it is hidden again
+  std::uint32_t entries = none;    ///< chain in the identifier matrix
+  std::uint32_t renewals = 0;      ///< volumes given so far, for the jitter
+  std::uint32_t pushed_frame = 0;  ///< frame (low 32 bits) for which the old position of a pushed move is kept
+  std::uint32_t read_frame = 0;    ///< frame (low 32 bits) in which the pose was last read
+  double max_speed = -1.0;         ///< metres a second; below 0: unknown
+  double reach = 0.0;              ///< metres: reach_of(shape), kept beside what is read with it
+  float term = 0.0F;               ///< seconds: the next volume's longest validity
   Pose pose{};
   std::optional<PreparedShape> shape;
 
@@ -43,47 +44,52 @@ struct ObjectState {
   bool may_hide() const { return !is_static && max_speed >= 0.0; }
 };
 
+/// Makes room for `count` elements in all, in steps of an eighth: half-empty tables would cost more than their
+/// growing.
+template <class T>
+void grow(std::vector<T>& table, std::size_t count) {
+  if (count > table.capacity()) table.reserve(count + count / 8);
+  if (count > table.size()) table.resize(count);
+}
+
 class ObjectTable {
  public:
   Slot add(ObjectId id) {
     Slot slot;
     if (free_.empty()) {
       slot = static_cast<Slot>(states_.size());
-      states_.emplace_back();
+      grow(states_, states_.size() + 1);
     } else {
       slot = free_.back();
       free_.pop_back();
     }
-    slots_.emplace(id, slot);
+    slots_.insert(id, slot);
     states_[slot] = ObjectState{};
     states_[slot].id = id;
+    ++live_;
     return slot;
   }
   void remove(Slot slot) {
     slots_.erase(states_[slot].id);
     states_[slot] = ObjectState{};
     free_.push_back(slot);
+    --live_;
   }
 
   /// The slot of an id, or `none`.
-  Slot find(ObjectId id) const {
-    const auto found = slots_.find(id);
-    return found == slots_.end() ? none : found->second;
-  }
+  Slot find(ObjectId id) const { return slots_.find(id); }
   ObjectState& operator[](Slot slot) { return states_[slot]; }
   const ObjectState& operator[](Slot slot) const { return states_[slot]; }
   std::size_t size() const { return states_.size(); }
-  std::size_t live() const { return slots_.size(); }
+  std::size_t live() const { return live_; }
 
-  std::uint64_t bytes() const {
-    // A node of the id table: key, slot, next pointer and its share of the buckets.
-    return states_.capacity() * sizeof(ObjectState) + slots_.size() * 32;
-  }
+  std::uint64_t bytes() const { return states_.capacity() * sizeof(ObjectState) + slots_.bytes(); }
 
  private:
   std::vector<ObjectState> states_;
-  std::unordered_map<ObjectId, Slot> slots_;  // looked up only, never iterated
+  IdSlots slots_;
   std::vector<Slot> free_;
+  std::size_t live_ = 0;
 };
 
 }  // namespace gridcull

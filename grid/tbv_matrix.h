@@ -27,6 +27,7 @@ class TbvMatrix {
   explicit TbvMatrix(const Lattice& lattice);
 
   void reserve(std::size_t slots) {
+    if (slots > links_.capacity()) links_.reserve(slots + slots / 8), balls_.reserve(slots + slots / 8);
     if (slots > links_.size()) links_.resize(slots), balls_.resize(slots);
   }
 

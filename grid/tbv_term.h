@@ -21,14 +21,16 @@ class TbvTerm {
   double longer(double term, double max_speed) const { return std::min(2.0 * term, widest * cell_ / max_speed); }
   double shorter(double term, double max_speed) const { return std::max(0.5 * term, 0.25 * cell_ / max_speed); }
 
-  /// Seconds the next volume is valid: between half the term and the whole, by a hash of the slot and of how
-  /// many volumes it had, so that objects that disappeared together do not come back together.
+  /// Seconds the next volume is valid, by a hash of the slot and of how many volumes it had, so that objects that
+  /// disappeared together do not come back together: between half the term and the whole; the first time, when a
+  /// whole world may disappear at once, from a twentieth on.
   static double spread(double term, Slot slot, std::uint32_t renewals) {
     std::uint64_t h = (std::uint64_t{slot} << 32 | renewals) + 0x9E37'79B9'7F4A'7C15ull;  // splitmix64
     h = (h ^ (h >> 30)) * 0xBF58'476D'1CE4'E5B9ull;
     h = (h ^ (h >> 27)) * 0x94D0'49BB'1331'11EBull;
     h ^= h >> 31;
-    return term * (0.5 + 0.5 * static_cast<double>(h >> 11) * 0x1p-53);
+    const double least = renewals == 0 ? 0.05 : 0.5;
+    return term * (least + (1.0 - least) * (static_cast<double>(h >> 11) * 0x1p-53));
   }
 
   /// Radius of the ball that holds the object for `seconds`: it moves at most max_speed * seconds and may turn
