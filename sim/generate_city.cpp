@@ -16,8 +16,13 @@ class City final : public GeneratedWorld {
   explicit City(const GenerateOptions& options) : GeneratedWorld(options, 200), blocks_(options.blocks.value_or(50)) {
     scene_.dimension = 3;
     const double side = period * blocks_ + street;
-    scene_.bounds = Bounds{Vec3(0.0), {side, side, 40.0}};
-    scene_.cell = options.cell.value_or(2.0);
+    scene_.cell = options.cell.value_or(1.5);
+    // Opaque cells begin a 32nd of a cell above the ground, clear of the buildings' feet, and eyes are in a layer
+    // above the lowest opaque one (at 1.5 m: 1.547 m and up). What is hidden reaches down to the ground behind
+    // buildings only then: cells are hidden as seen from the middle of the viewer's cell, by middles of opaque ones.
+    // One layer more is room for the cars' temporal bounding volumes: one that leaves the lattice is never hidden.
+    const double low = -31.0 / 32.0 * *scene_.cell;
+    scene_.bounds = Bounds{{low, low, low - *scene_.cell}, {side, side, 40.0}};
     for (std::uint32_t y = 0; y < blocks_; ++y) {
       for (std::uint32_t x = 0; x < blocks_; ++x) build({period * x + street, period * y + street});
     }

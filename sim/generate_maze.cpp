@@ -10,7 +10,8 @@ namespace gridcull {
 namespace {
 
 constexpr double pitch = 5.0;  // metres from corridor to corridor
-// With cells of 0.5 m a wall holds whole cells wherever the lattice begins.
+// Three cells of 0.5 m. The lattice begins half a cell before the walls, so that two of three lie wholly inside and
+// none touches a face.
 constexpr double wall = 1.5;
 
 /// Directions: 0 = +x, 1 = +y, 2 = -x, 3 = -y.
@@ -22,8 +23,9 @@ class Maze final : public GeneratedWorld {
       : GeneratedWorld(options, 300), side_(static_cast<int>(options.count.value_or(20))) {
     const double edge = pitch * side_ + 0.5 * wall;
     scene_.dimension = 2;
-    scene_.bounds = Bounds{{-0.5 * wall, -0.5 * wall, 0.0}, {edge, edge, 0.0}};
     scene_.cell = options.cell.value_or(0.5);
+    const double low = -0.5 * (wall + *scene_.cell);
+    scene_.bounds = Bounds{{low, low, 0.0}, {edge, edge, 0.0}};
     open_.assign(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0);
     dig();
     for (int line = 0; line <= side_; ++line) {

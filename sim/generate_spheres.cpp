@@ -95,10 +95,10 @@ class Discs final : public GeneratedWorld {
   explicit Discs(const GenerateOptions& options) : GeneratedWorld(options, 100) {
     scene_.dimension = 2;
     scene_.bounds = Bounds{Vec3(0.0), {256.0, 256.0, 0.0}};
-    scene_.cell = options.cell.value_or(1.0);
     const std::uint32_t count = options.count.value_or(300);
     // Few are large (1 .. 6 m), many are small (0.5 .. 1.5 m).
     const bool few = count <= 1000;
+    scene_.cell = options.cell.value_or(few ? 1.0 : 0.5);
     for (std::uint32_t i = 0; i < count; ++i) {
       const double radius = few ? random_.uniform(1.0, 6.0) : random_.uniform(0.5, 1.5);
       const double x = random_.uniform(6.0, 250.0);
