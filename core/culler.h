@@ -50,7 +50,6 @@ struct WorkCounts {
 struct Answer {
   ViewerId viewer = no_id;
   std::vector<ObjectId> visible;  ///< ascending
-  std::uint32_t in_view = 0;      ///< objects known to touch the view volume, hidden or not, where the method counts them
   WorkCounts work{};
 };
 

@@ -10,7 +10,7 @@
 namespace gridcull {
 
 void Traverse2D::run(ViewGrid& grid, const ViewCone& cone, const Cell& viewer, const Vec3& axis, RevealSink& sink,
-                     WorkCounts& work) {
+                     WorkCounts& work, Stopwatch& occlusion) {
   grid_ = &grid;
   cone_ = &cone;
   viewer_ = viewer;
@@ -32,6 +32,7 @@ void Traverse2D::run(ViewGrid& grid, const ViewCone& cone, const Cell& viewer, c
     });
     if (found_.empty() && inside) break;
     for (const Found& f : found_) sink.look(f.brick, f.bits);
+    occlusion.start();
     for (const Found& f : found_) {
       const std::size_t lattice_brick = grid.lattice_brick(f.brick);
       const Cell corner = grid.lattice().brick_corner(lattice_brick);
@@ -39,6 +40,7 @@ void Traverse2D::run(ViewGrid& grid, const ViewCone& cone, const Cell& viewer, c
         hide_.extend({corner.x + (bit & 7), corner.y + (bit >> 3), 0}, work);
       });
     }
+    occlusion.stop();
   }
 }
 

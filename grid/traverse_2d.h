@@ -6,6 +6,7 @@
 
 #include "gridcull/grid/hide_2d.h"
 #include "gridcull/grid/ring_walk.h"
+#include "gridcull/grid/stopwatch.h"
 #include "gridcull/grid/view_cone.h"
 #include "gridcull/grid/view_grid.h"
 
@@ -16,7 +17,7 @@ class Traverse2D {
   /// Fills grid.visible and grid.hidden for a viewer in cell `viewer` (at most 2^30 cells away) that looks
   /// along `axis`. The viewer's own cell is the caller's business.
   void run(ViewGrid& grid, const ViewCone& cone, const Cell& viewer, const Vec3& axis, RevealSink& sink,
-           WorkCounts& work);
+           WorkCounts& work, Stopwatch& occlusion);
 
   std::uint64_t bytes() const { return hide_.bytes() + found_.capacity() * sizeof(Found); }
 

@@ -22,7 +22,7 @@ std::array<int, 6> sweep_order(const Vec3& axis) {
 }  // namespace
 
 void Traverse3D::run(ViewGrid& grid, const ViewCone& cone, const Cell& viewer, const Vec3& axis, RevealSink& sink,
-                     WorkCounts& work) {
+                     WorkCounts& work, Stopwatch& occlusion) {
   used_.clear();
   std::int64_t last = 0, first = std::int64_t{1} << 62;
   for (const int index : sweep_order(axis)) {
@@ -54,7 +54,9 @@ void Traverse3D::run(ViewGrid& grid, const ViewCone& cone, const Cell& viewer, c
       sink.look(brick, fresh_[brick]);
       fresh_[brick] = 0;
     }
+    occlusion.start();
     for (const int index : showing_) faces_[static_cast<std::size_t>(index)].occlude(k, work);
+    occlusion.stop();
   }
 }
 

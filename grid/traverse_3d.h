@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gridcull/grid/face_3d.h"
+#include "gridcull/grid/stopwatch.h"
 
 namespace gridcull {
 
@@ -14,7 +15,7 @@ class Traverse3D {
  public:
   /// As Traverse2D::run; H stays in the faces.
   void run(ViewGrid& grid, const ViewCone& cone, const Cell& viewer, const Vec3& axis, RevealSink& sink,
-           WorkCounts& work);
+           WorkCounts& work, Stopwatch& occlusion);
 
   /// Runs of hidden cells of the last run(), lattice coordinates, for drawing: f(low cell, high cell).
   template <class F>

@@ -38,10 +38,11 @@ void ViewTask::run(GridWorld& world, const View& view, Answer& answer, ViewResul
   answer.viewer = view.viewer;
   answer.visible.clear();
   answer.work = {};
-  answer.in_view = 0;
+  occlusion_.clear();
   begin(view);
   traverse();
-  result.traverse_us = microseconds_since(start);
+  result.occlude_us = occlusion_.microseconds();
+  result.traverse_us = microseconds_since(start) - result.occlude_us;
   const auto collecting = std::chrono::steady_clock::now();
   collect();
   result.collect_us = microseconds_since(collecting);
@@ -137,9 +138,9 @@ void ViewTask::traverse() {
   }
   const ViewCone cone(world.lattice, *volume_, viewer_);
   if (world.lattice.dimension() == 2) {
-    traverse_2d_.run(grid_, cone, viewer_, volume_->axis(), *this, answer_->work);
+    traverse_2d_.run(grid_, cone, viewer_, volume_->axis(), *this, answer_->work, occlusion_);
   } else {
-    traverse_3d_.run(grid_, cone, viewer_, volume_->axis(), *this, answer_->work);
+    traverse_3d_.run(grid_, cone, viewer_, volume_->axis(), *this, answer_->work, occlusion_);
   }
 }
 

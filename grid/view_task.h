@@ -10,6 +10,7 @@
 #include "gridcull/core/view_volume.h"
 #include "gridcull/grid/cover_scratch.h"
 #include "gridcull/grid/grid_world.h"
+#include "gridcull/grid/stopwatch.h"
 #include "gridcull/grid/traverse_2d.h"
 #include "gridcull/grid/traverse_3d.h"
 #include "gridcull/grid/view_grid.h"
@@ -73,6 +74,7 @@ class ViewTask final : public RevealSink {
   bool has_window_ = false;
   bool far_away_ = false;
   ViewGrid grid_;
+  Stopwatch occlusion_;
   Traverse2D traverse_2d_;
   Traverse3D traverse_3d_;
   CoverScratch scratch_;

@@ -77,7 +77,6 @@ class FrustumCuller final : public Culler {
         answer.visible.push_back(id);
       }
     }
-    answer.in_view = static_cast<std::uint32_t>(answer.visible.size());
   }
 
   int dimension_;

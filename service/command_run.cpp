@@ -15,6 +15,7 @@
 #include "gridcull/service/progress.h"
 #include "gridcull/service/run_report.h"
 #include "gridcull/service/world_options.h"
+#include "gridcull/sim/in_view.h"
 #include "gridcull/sim/pvs.h"
 #include "gridcull/sim/stats.h"
 
@@ -59,7 +60,8 @@ int run(const RunOptions& options) {
   {
     Progress progress("frames", expected_frames(options.world, world));
     while (pictures.step(replay, *culler, world.lattice)) {
-      collector.add(replay.answers());
+      // Counted only where it is written: it tests every object for every viewer.
+      collector.add(replay.answers(), stats_file ? count_in_view(replay.world(), replay.views()) : 0);
       if (out) out->write(replay.frame(), replay.time(), replay.answers());
       progress.update(replay.next_frame());
       stop_if_interrupted();

@@ -9,6 +9,7 @@
 #include "gridcull/grid/engine.h"
 #include "gridcull/service/svg_picture.h"
 #include "gridcull/service/text.h"
+#include "gridcull/sim/in_view.h"
 
 namespace gridcull {
 namespace {
@@ -29,7 +30,11 @@ std::string title_of(const Culler& culler, const PictureRequest& request) {
 std::string subtitle_of(const std::string& label, const Replay& replay, const Answer& answer, const Lattice& lattice) {
   std::string text = label + ", t = " + number_text(replay.time(), 4) +
                      " s: " + counted(answer.visible.size(), "object") + " reported";
-  if (answer.in_view > 0) text += " of " + std::to_string(answer.in_view) + " in the view volume";
+  for (const View& view : replay.views()) {
+    if (view.viewer == answer.viewer) {
+      text += " of " + std::to_string(count_in_view(replay.world(), {&view, 1})) + " in the view volume";
+    }
+  }
   text += "; cells of " + number_text(lattice.cell()) + " m";
   if (lattice.dimension() == 3) text += "; slice through the viewer's height";
   return text;

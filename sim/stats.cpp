@@ -65,7 +65,8 @@ Spread spread_of(std::vector<double> values) {
   return {0.5 * (values[(n - 1) / 2] + values[n / 2]), sum / static_cast<double>(n), values[rank - 1], values.back()};
 }
 
-void StatsCollector::add(const Answers& answers) {
+void StatsCollector::add(const Answers& answers, std::uint64_t in_view) {
+  in_view_ += in_view;
   const FrameStats& frame = answers.stats;
   const std::array<double, 5> times{frame.discretise_us, frame.traverse_us, frame.occlude_us, frame.collect_us,
                                     frame.total_us};
@@ -78,7 +79,6 @@ void StatsCollector::add(const Answers& answers) {
   queries_ += answers.views.size();
   for (const Answer& answer : answers.views) {
     visible_ += answer.visible.size();
-    in_view_ += answer.in_view;
     cells_ += answer.work.cells_visited;
     hash_.add(answer);
   }

@@ -45,7 +45,8 @@ struct Stats {
 /// Collects a run, frame by frame.
 class StatsCollector {
  public:
-  void add(const Answers& answers);
+  /// `in_view`: count_in_view() of the frame, where it was counted.
+  void add(const Answers& answers, std::uint64_t in_view = 0);
   /// All that answers tell; method, threads, cell, cells and peak_memory_bytes are the caller's.
   Stats stats() const;
 
