@@ -45,12 +45,12 @@ judge() {
   "$program" run "${world[@]}" --stats stats.json >/dev/null || { fail "$label, $method: run"; return; }
   [ $status -eq 0 ] || fail "$label, $method, TBVs $tbv: $(cat check.json)"
   rows=$((rows + 1))
-  say "$(printf '| %s | %s | %s | %s | %d | %d | %s%.1f | %.1f | %s%.2f | %d | %.3g |' "$label" "$method" "$tbv" \
+  say "$(printf '| %s | %s | %s | %s | %d | %d | %s%.1f | %.1f | %s%.2f | %d | %s |' "$label" "$method" "$tbv" \
     "$(number stats.json cell)" "$(number check.json judged_frames)" "$(number check.json queries)" \
     "$(grep -q '"exact_is_lower_bound":true' check.json && echo '≥ ')" "$(number check.json exact_mean)" \
     "$(number check.json pvs_mean)" "$(grep -q '"exact_is_lower_bound":true' check.json && echo '≤ ')" \
     "$(number check.json over_estimation)" "$(number check.json misses)" \
-    "$(number stats.json median '"total":{' | awk '{ print $1 / 1000 }')")"
+    "$(number stats.json median '"total":{' | awk '{ printf ($1 < 1e5 ? "%.3g" : "%.0f"), $1 / 1000 }')")"
 }
 
 # all LABEL FOLDER EVERY MODES [OPTION...]: a row for every method; MODES "each" takes every mode of TBVs, "one" only
