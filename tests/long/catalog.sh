@@ -41,7 +41,10 @@ judge() {
   local world=("$folder/scene.json" --frames "$folder/frames.jsonl" --method "$method" --tbv "$tbv" "$@")
   "$program" check "${world[@]}" --every "$every" --json >check.json
   local status=$?
-  [ $status -le 1 ] && [ -s check.json ] || { fail "$label, $method: check ended with status $status"; return; }
+  if [ $status -gt 1 ] || [ ! -s check.json ]; then
+    fail "$label, $method: check ended with status $status"
+    return
+  fi
   "$program" run "${world[@]}" --stats stats.json >/dev/null || { fail "$label, $method: run"; return; }
   [ $status -eq 0 ] || fail "$label, $method, TBVs $tbv: $(cat check.json)"
   rows=$((rows + 1))
@@ -79,11 +82,18 @@ real() {
     echo "skipped: GRIDCULL_DATA names no folder with bad-hersfeld/ and bottleneck/" >&2
     exit 77
   fi
-  "$program" import sumo --fcd "$GRIDCULL_DATA/bad-hersfeld/fcd.xml.gz" \
-    --buildings "$GRIDCULL_DATA/bad-hersfeld/buildings.poly.xml" --viewers 40 --range 150 --out town >/dev/null &&
-    all "Bad Hersfeld, 40 drivers, 150 m" town 20 each || fail "import sumo"
-  "$program" import petrack --trajectories "$GRIDCULL_DATA/bottleneck/040_c_56_h.txt" --viewers 10 --out crowd \
-    >/dev/null && all "bottleneck, 10 pedestrians, 170°" crowd 10 each || fail "import petrack"
+  if "$program" import sumo --fcd "$GRIDCULL_DATA/bad-hersfeld/fcd.xml.gz" --out town --viewers 40 --range 150 \
+    --buildings "$GRIDCULL_DATA/bad-hersfeld/buildings.poly.xml" >/dev/null; then
+    all "Bad Hersfeld, 40 drivers, 150 m" town 20 each
+  else
+    fail "import sumo"
+  fi
+  if "$program" import petrack --trajectories "$GRIDCULL_DATA/bottleneck/040_c_56_h.txt" --viewers 10 --out crowd \
+    >/dev/null; then
+    all "bottleneck, 10 pedestrians, 170°" crowd 10 each
+  else
+    fail "import petrack"
+  fi
 }
 
 say '| scene | method | TBVs | cell, m | frames judged | queries | exact mean | PVS mean | over-estimation | misses | median frame, ms |'
