@@ -25,15 +25,22 @@ void check(const View& view, int dimension) {
   if (!(std::fabs(p.x) <= 1e9 && std::fabs(p.y) <= 1e9 && std::fabs(p.z) <= 1e9)) {
     refuse(view, "expected a finite position of magnitude at most 1e9");
   }
+  const Quat& q = view.pose.orientation;
+  if (!(std::fabs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) <= 1e-9)) {
+    refuse(view, "expected an orientation of length 1");
+  }
   if (!(view.range > 0.0)) refuse(view, "expected a range above 0");
   if (dimension == 2) {
-    if (!(view.fov > 0.0 && view.fov <= 2.0 * std::numbers::pi)) refuse(view, "expected a field of view above 0 and at most 360 degrees");
+    if (p.z != 0.0) refuse(view, "expected z = 0 in 2D");
+    if (!(view.fov > 0.0 && view.fov <= 2.0 * std::numbers::pi))
+      refuse(view, "expected a field of view above 0 and at most 360 degrees");
     return;
   }
   if (!view.frustum) return;
   const Frustum& f = *view.frustum;
   if (!(f.fov_y > 0.0 && f.fov_y < std::numbers::pi)) refuse(view, "expected fov_y above 0 and below 180 degrees");
-  if (!(f.aspect > 0.0 && std::isfinite(f.aspect))) refuse(view, "expected an aspect above 0");
+  // Flatter or steeper pyramids would leave the doubles' range in the normals of their sides.
+  if (!(f.aspect >= 1e-6 && f.aspect <= 1e6)) refuse(view, "expected an aspect of 1e-6 to 1e6");
   if (!(f.near >= 0.0 && std::isfinite(f.near))) refuse(view, "expected near at least 0");
   if (!(f.far > f.near)) refuse(view, "expected far above near");
 }
@@ -41,7 +48,10 @@ void check(const View& view, int dimension) {
 }  // namespace
 
 ViewVolume::ViewVolume(const View& view, int dimension)
-    : dimension_(dimension), apex_(view.pose.position), range_(view.range), far_(std::numeric_limits<double>::infinity()) {
+    : dimension_(dimension),
+      apex_(view.pose.position),
+      range_(view.range),
+      far_(std::numeric_limits<double>::infinity()) {
   check(view, dimension);
   const Rotation r = rotation_of(view.pose.orientation);
   axis_ = r.x;

@@ -39,7 +39,7 @@ void GridEngine::remove(ObjectId object) { state_->remove(state_->slot_of(object
 
 void GridEngine::move(ObjectId object, const Pose& pose) {
   const Slot slot = state_->slot_of(object);
-  check_pose(pose, object);
+  check_pose(pose, object, state_->options.dimension);
   state_->move(slot, pose);
 }
 
@@ -68,7 +68,12 @@ void GridEngine::query(double time, std::span<const View> views, Answers& out) {
   s.discretise();
   s.note_viewers(views);
   const auto ready = std::chrono::steady_clock::now();
-  s.answer_views(views, out);
+  try {
+    s.answer_views(views, out);
+  } catch (...) {
+    s.viewers.forget();
+    throw;
+  }
   const auto answered = std::chrono::steady_clock::now();
   s.merge(views.size());
   s.hide_unseen();

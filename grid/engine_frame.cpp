@@ -57,14 +57,20 @@ void GridEngine::State::settle_jumps(double time) {
   jumped.clear();
 }
 
-// Criterion 2 of the paper: hidden and expired, so a new term.
+// Criterion 2 of the paper: hidden and expired, so a new term. All poses are read before any volume is given up:
+// if the source throws, the volumes go back to the queue and expire again in the next frame.
 void GridEngine::State::expire() {
   expired.clear();
   expiries.pop_expired(now, expired);
+  try {
+    for (const Slot slot : expired) world.read_alone(slot);
+  } catch (...) {
+    for (const Slot slot : expired) expiries.push(slot, expiries.expiry(slot));
+    throw;
+  }
   for (const Slot slot : expired) {
     ObjectState& state = world.objects[slot];
     ++stats.tbv_expired;
-    world.read_alone(slot);
     take_volume(slot);
     lengthen_term(state);
     give_volume(slot);

@@ -33,7 +33,7 @@ void GridEngine::State::add(const Object& object) {
   if (object.max_speed && !(*object.max_speed >= 0.0 && *object.max_speed <= 1e9)) {
     throw Error(ErrorCode::bad_scene, where + "expected max_speed 0 .. 1e9");
   }
-  check_pose(object.pose, object.id);
+  check_pose(object.pose, object.id, options.dimension);
   validate(object.shape);
   PreparedShape shape(object.shape);
   const Slot slot = world.objects.add(object.id);

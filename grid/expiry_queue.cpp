@@ -18,9 +18,10 @@ std::uint32_t ExpiryQueue::bucket_of(std::int64_t day) {
   return static_cast<std::uint32_t>(((day % ring) + ring) % ring);
 }
 
+// What has expired already (it went back after a frame that failed) waits in the bucket that is drained next.
 void ExpiryQueue::link(Slot slot) {
   Link& l = links_[slot];
-  const std::uint32_t bucket = bucket_of(day(l.expiry));
+  const std::uint32_t bucket = bucket_of(std::max(day(l.expiry), day(last_)));
   l.bucket = bucket;
   l.before = none;
   l.after = buckets_[bucket];

@@ -7,7 +7,7 @@
 
 namespace gridcull {
 
-void check_pose(const Pose& pose, ObjectId object) {
+void check_pose(const Pose& pose, ObjectId object, int dimension) {
   const Vec3& p = pose.position;
   const Quat& q = pose.orientation;
   const double length = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
@@ -15,7 +15,10 @@ void check_pose(const Pose& pose, ObjectId object) {
     throw Error(ErrorCode::bad_frame,
                 "object " + std::to_string(object) + ": expected a finite position of magnitude at most 1e9");
   }
-  if (!(std::fabs(length - 1.0) <= 1e-6)) {
+  if (dimension == 2 && p.z != 0.0) {
+    throw Error(ErrorCode::bad_frame, "object " + std::to_string(object) + ": expected z = 0 in 2D");
+  }
+  if (!(std::fabs(length - 1.0) <= 1e-9)) {
     throw Error(ErrorCode::bad_frame, "object " + std::to_string(object) + ": expected an orientation of length 1");
   }
 }
@@ -44,7 +47,7 @@ const Pose& GridWorld::read_alone(Slot slot) {
   if (state.read_frame != static_cast<std::uint32_t>(frame)) {
     if (source != nullptr) {
       const Pose pose = source->pose(state.id);
-      check_pose(pose, state.id);
+      check_pose(pose, state.id, lattice.dimension());
       state.pose = pose;
     }
     state.read_frame = static_cast<std::uint32_t>(frame);

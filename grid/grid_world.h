@@ -50,7 +50,7 @@ struct GridWorld {
   std::mutex reading_;
 };
 
-/// Throws Error(bad_frame) unless position and orientation are finite and within 1e9.
-void check_pose(const Pose& pose, ObjectId object);
+/// Throws Error(bad_frame) unless the position is finite and within 1e9 (2D: z = 0) and the orientation of length 1.
+void check_pose(const Pose& pose, ObjectId object, int dimension);
 
 }  // namespace gridcull

@@ -119,10 +119,10 @@ TEST_CASE("shape: nothing reaches beyond reach_of at any orientation") {
       for (const Vec3& p : world_vertices(shape, {{}, turn})) most = std::max(most, glm::length(p));
     }
     CHECK(most <= reach_of(shape));
-    CHECK(most >= reach_of(shape) * (1 - 1e-12));
+    CHECK(most >= reach_of(shape) * (1 - 1e-7));
   }
   CHECK(reach_of(Disc{2}) >= 2.0);
-  CHECK(reach_of(Sphere{2}) < 2.0 + 1e-12);
+  CHECK(reach_of(Sphere{2}) < 2.0 + 1e-7);
 }
 
 TEST_CASE("shape: names, dimensions and thinness") {
