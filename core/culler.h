@@ -99,8 +99,9 @@ class Culler {
   /// is accepted, handled as a jump and counted. Throws unknown_object.
   virtual void move(ObjectId object, const Pose& pose) = 0;
 
-  /// Pull: from now on poses of moving objects come from `source`, which outlives its use. nullptr: back to
-  /// push; then every moving object must be pushed once, since poses that nobody asked for are out of date.
+  /// Pull: from now on poses of moving objects come from `source`, which outlives its use; hidden objects
+  /// are looked at again. nullptr: back to push; then every moving object must be pushed once, since poses that
+  /// nobody asked for are out of date.
   /// Methods that need all poses anyway read all.
   virtual void set_source(PositionSource* source) = 0;
   /// Pull: the object moves beyond its max_speed in this frame. Throws unknown_object.

@@ -43,7 +43,15 @@ void GridEngine::move(ObjectId object, const Pose& pose) {
   state_->move(slot, pose);
 }
 
-void GridEngine::set_source(PositionSource* source) { state_->world.source = source; }
+void GridEngine::set_source(PositionSource* source) {
+  State& s = *state_;
+  if (source == s.world.source) return;
+  s.world.source = source;
+  // The new source may know other places than the old one told: no volume holds any longer.
+  for (Slot slot = 0; slot < s.world.objects.size(); ++slot) {
+    if (s.world.objects[slot].place == Place::hidden) s.activate(slot);
+  }
+}
 
 void GridEngine::announce_jump(ObjectId object) {
   const Slot slot = state_->slot_of(object);

@@ -131,7 +131,9 @@ void GridEngine::State::answer_views(std::span<const View> views, Answers& out) 
     if (!arena) arena = std::make_unique<tbb::task_arena>(std::min(options.threads, tbb::info::default_concurrency()));
     arena->execute([&] {
       tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
-        one(i, *tasks[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
+        // Isolated: a source that uses TBB itself must not make this thread take up another view meanwhile.
+        tbb::this_task_arena::isolate(
+            [&] { one(i, *tasks[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]); });
       });
     });
   }
@@ -162,8 +164,6 @@ void GridEngine::State::merge(std::size_t views) {
 
 // Criterion 1 of the paper: not in anybody's PVS and without a volume, so it gets one.
 void GridEngine::State::hide_unseen() {
-  // Backwards: what was discretised last hangs first in its bricks' lists, so that even the first frame, which
-  // hides most of a world, finds every entry at once.
   hiding.clear();
   std::size_t kept = 0;
   for (const Slot slot : active) {
@@ -182,6 +182,8 @@ void GridEngine::State::hide_unseen() {
     }
   }
   active.resize(kept);
+  // Backwards: what was discretised last hangs first in its bricks' lists, so that even the first frame, which
+  // hides most of a world, finds every entry at once.
   std::for_each(hiding.rbegin(), hiding.rend(), [&](Slot slot) { hide(slot); });
 }
 

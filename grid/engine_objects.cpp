@@ -1,4 +1,5 @@
 // Objects coming, going and moving between frames, and their way between the matrices I and T.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -56,11 +57,20 @@ void GridEngine::State::add(const Object& object) {
 }
 
 void GridEngine::State::remove(Slot slot) {
+  ObjectState& state = world.objects[slot];
+  const Place place = state.place;
   leave_grid(slot);
-  std::erase(waiting, slot);
-  std::erase(active, slot);
-  std::erase(jumped, slot);
-  std::erase_if(pushed, [&](const Pushed& p) { return p.slot == slot; });
+  // Only the lists that can hold the slot are searched, from the back: what came last mostly goes first.
+  const auto drop = [&](std::vector<Slot>& list) {
+    const auto found = std::find(list.rbegin(), list.rend(), slot);
+    if (found != list.rend()) list.erase(std::next(found).base());
+  };
+  if (place == Place::waiting) drop(waiting);
+  if (place == Place::active && !state.is_static) drop(active);
+  if (state.jumped) drop(jumped);
+  if (state.pushed_frame == static_cast<std::uint32_t>(world.frame + 1)) {
+    std::erase_if(pushed, [&](const Pushed& p) { return p.slot == slot; });
+  }
   world.objects.remove(slot);
 }
 
@@ -87,10 +97,14 @@ void GridEngine::State::set_outside(Slot slot, bool outside) {
   if (state.outside == outside) return;
   state.outside = outside;
   if (outside) {
+    state.outside_place = static_cast<std::uint32_t>(world.outside.size());
     world.outside.push_back(slot);
-  } else {
-    std::erase(world.outside, slot);
+    return;
   }
+  const Slot last = world.outside.back();
+  world.outside[state.outside_place] = last;
+  world.objects[last].outside_place = state.outside_place;
+  world.outside.pop_back();
 }
 
 void GridEngine::State::cover(Slot slot) {

@@ -40,17 +40,23 @@ void ExpiryQueue::drain(std::uint32_t bucket, double now, std::vector<Slot>& out
   }
 }
 
+void ExpiryQueue::relay(double width) {
+  std::vector<Slot> waiting;
+  for (const std::uint32_t head : buckets_) {
+    for (std::uint32_t slot = head; slot != none; slot = links_[slot].after) waiting.push_back(slot);
+  }
+  for (const Slot slot : waiting) erase(slot);
+  width_ = width;
+  unsuited_ = 0;
+  for (const Slot slot : waiting) link(slot);
+}
+
 void ExpiryQueue::pop_expired(double now, std::vector<Slot>& out) {
   const std::size_t before = out.size();
   if (!started_ || width_ <= 0) {
     drain(0, now, out);
     if (started_ && now > last_) {
-      // The first step is known: spread what waits over the calendar.
-      std::vector<Slot> waiting;
-      for (std::uint32_t slot = buckets_[0]; slot != none; slot = links_[slot].after) waiting.push_back(slot);
-      for (const Slot slot : waiting) erase(slot);
-      width_ = now - last_;
-      for (const Slot slot : waiting) link(slot);
+      relay(now - last_);  // the first step is known: spread what waits over the calendar
     }
   } else {
     // A long pause, or times so far from 0 that days cannot be told apart, drains the whole calendar.
@@ -61,8 +67,13 @@ void ExpiryQueue::pop_expired(double now, std::vector<Slot>& out) {
       for (std::int64_t d = day(last_); d <= day(now); ++d) drain(bucket_of(d), now, out);
     }
   }
+  const double step = now - last_;
   last_ = now;
   started_ = true;
+  // The calendar suits steps near its width. Where steps have changed for good it is laid out anew.
+  const bool suits = width_ <= 0 || (step > width_ / 16.0 && step < width_ * 16.0);
+  unsuited_ = suits ? 0 : unsuited_ + 1;
+  if (unsuited_ >= 8) relay(step);
   std::sort(out.begin() + static_cast<std::ptrdiff_t>(before), out.end());
 }
 

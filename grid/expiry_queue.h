@@ -53,6 +53,8 @@ class ExpiryQueue {
   std::int64_t day(double time) const;
   static std::uint32_t bucket_of(std::int64_t day);
   void link(Slot slot);
+  /// Lays the calendar out anew with buckets of `width` seconds.
+  void relay(double width);
   void drain(std::uint32_t bucket, double now, std::vector<Slot>& out);
 
   std::vector<Link> links_;
@@ -60,6 +62,7 @@ class ExpiryQueue {
   double width_ = 0;  // seconds a bucket; 0 until a frame step is known
   double last_ = 0;   // time of the last pop
   bool started_ = false;
+  int unsuited_ = 0;  // frame steps in a row that are far from the width
 };
 
 }  // namespace gridcull

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include <glm/common.hpp>
+
 #include "gridcull/core/error.h"
 
 namespace gridcull {
@@ -77,8 +79,13 @@ Lattice::Lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t
       extent.y < 0.0 || extent.z < 0.0) {
     throw Error(ErrorCode::bad_scene, "bounds: expected finite min and max with min at most max");
   }
-  if (!(cell > 0.0) || !std::isfinite(cell)) {
-    throw Error(ErrorCode::bad_scene, "grid.cell: expected a size above 0, found " + text(cell));
+  if (!(cell > 0.0) || !(cell <= 1e9)) {
+    throw Error(ErrorCode::bad_scene, "grid.cell: expected a size above 0 and at most 1e9, found " + text(cell));
+  }
+  const Vec3 far = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+  if (cell < 0x1p-40 * std::fmax(far.x, std::fmax(far.y, far.z))) {
+    throw Error(ErrorCode::bad_scene,
+                "grid.cell: expected at least 1e-12 of the bounds' greatest coordinate, found " + text(cell));
   }
   const Vec3 along = count(dimension, extent, cell);
   if (!fits(dimension, along, max_memory)) refuse(dimension, extent, cell, max_memory);
@@ -140,9 +147,16 @@ std::uint64_t Lattice::bytes_for(int dimension, const Cell& cells) {
   const int s = dimension == 2 ? brick_shift_2d : brick_shift_3d;
   const auto along = [&](std::int64_t n) { return static_cast<std::uint64_t>((n + (1 << s) - 1) >> s); };
   const std::uint64_t bricks = along(cells.x) * along(cells.y) * (dimension == 3 ? along(cells.z) : 1);
-  // Per brick: O and O_s (8 bytes each), heads of I and T (4 each), and one viewer's copy of O, its H and
-  // its visible cells (8 each).
-  return bricks * 48;
+  // Per brick: O and O_s (8 bytes each), the head of I (4), counts, homes and record of T (76), and one viewer's
+  // copies: O, visible cells and, in 2D, H and the cells that legs hold, in 3D the newly visible ones (8 each).
+  std::uint64_t bytes = bricks * (96 + (dimension == 2 ? 40 : 24));
+  if (dimension == 2) return bytes;
+  // 3D: a viewer's H, planes of rows of whole words; two opposite faces share the planes of an axis.
+  const auto words = [](std::int64_t n) { return static_cast<std::uint64_t>(n / 64 + 2); };
+  const auto count = [](std::int64_t n) { return static_cast<std::uint64_t>(n); };
+  bytes += 8 * (count(cells.x) * count(cells.z) * words(cells.y) + count(cells.y) * count(cells.z) * words(cells.x) +
+                count(cells.z) * count(cells.y) * words(cells.x));
+  return bytes;
 }
 
 }  // namespace gridcull

@@ -25,18 +25,19 @@ struct ObjectState {
   Place place = Place::gone;
   bool occluder = true;
   bool is_static = false;
-  bool stale = false;              ///< active: the pose changed since it was discretised
-  bool outside = false;            ///< active: reaches beyond the lattice; hidden: its volume does
-  bool hollow = false;             ///< hidden: its volume is entered as an outline
-  bool jumped = false;             ///< announced for the frame to come
-  std::uint8_t patience = 0;       ///< active: frames it may still be unseen before it is hidden again
-  std::uint32_t entries = none;    ///< chain in the identifier matrix
-  std::uint32_t renewals = 0;      ///< volumes given so far, for the jitter
-  std::uint32_t pushed_frame = 0;  ///< frame (low 32 bits) for which the old position of a pushed move is kept
-  std::uint32_t read_frame = 0;    ///< frame (low 32 bits) in which the pose was last read
-  double max_speed = -1.0;         ///< metres a second; below 0: unknown
-  double reach = 0.0;              ///< metres: reach_of(shape), kept beside what is read with it
-  float term = 0.0F;               ///< seconds: the next volume's longest validity
+  bool stale = false;                  ///< active: the pose changed since it was discretised
+  bool outside = false;                ///< active: reaches beyond the lattice; hidden: its volume does
+  bool hollow = false;                 ///< hidden: its volume is entered as an outline
+  bool jumped = false;                 ///< announced for the frame to come
+  std::uint8_t patience = 0;           ///< active: frames it may still be unseen before it is hidden again
+  std::uint32_t outside_place = none;  ///< outside: its place in GridWorld::outside
+  std::uint32_t entries = none;        ///< chain in the identifier matrix
+  std::uint32_t renewals = 0;          ///< volumes given so far, for the jitter
+  std::uint32_t pushed_frame = 0;      ///< frame (low 32 bits) for which the old position of a pushed move is kept
+  std::uint32_t read_frame = 0;        ///< frame (low 32 bits) in which the pose was last read
+  double max_speed = -1.0;             ///< metres a second; below 0: unknown
+  double reach = 0.0;                  ///< metres: reach_of(shape), kept beside what is read with it
+  float term = 0.0F;                   ///< seconds: the next volume's longest validity
   Pose pose{};
   std::optional<PreparedShape> shape;
 

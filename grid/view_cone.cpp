@@ -1,13 +1,12 @@
-// Every test is loosened by `slack` cells plus a relative part: coordinates reach 2^30 cells, where a double
-// still resolves 2^-22 of a cell, so the roundings of a few operations stay far below 1e-6 + 1e-12 |x|.
+// Every test is loosened by `slack_` cells plus a relative part: the margin of the lattice, which covers the
+// roundings of its boundaries and of the viewpoint, and 1e-6 for coordinates of up to 2^30 cells, where a double
+// still resolves 2^-22 of a cell and a few operations stay far below that.
 #include "gridcull/grid/view_cone.h"
 
 #include <algorithm>
 
 namespace gridcull {
 namespace {
-
-constexpr double slack = 1e-6;
 
 std::int64_t clamped(double value, const CellRange& within) {
   if (!(value > static_cast<double>(within.low))) return within.low;
@@ -18,7 +17,10 @@ std::int64_t clamped(double value, const CellRange& within) {
 }  // namespace
 
 ViewCone::ViewCone(const Lattice& lattice, const ViewVolume& volume, const Cell& viewer)
-    : dimension_(lattice.dimension()), convex_(volume.convex()), range_(volume.range() / lattice.cell()) {
+    : dimension_(lattice.dimension()),
+      convex_(volume.convex()),
+      range_(volume.range() / lattice.cell()),
+      slack_(1e-6 + lattice.margin() / lattice.cell()) {
   const std::array<std::int64_t, 3> cell{viewer.x, viewer.y, viewer.z};
   for (int k = 0; k < dimension_; ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -33,7 +35,7 @@ ViewCone::ViewCone(const Lattice& lattice, const ViewVolume& volume, const Cell&
 
 CellRange ViewCone::inside(const Side& side, int axis, const std::array<double, 3>& centre,
                            const CellRange& within) const {
-  double base = side.reach + slack;
+  double base = side.reach + slack_;
   double size = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     base += side.normal[i] * centre[i];
@@ -47,14 +49,14 @@ CellRange ViewCone::inside(const Side& side, int axis, const std::array<double, 
     return most >= 0.0 ? within : CellRange{};
   }
   const double root = -base / slope;
-  const double loose = slack + 1e-12 * std::fabs(root);
+  const double loose = slack_ + 1e-12 * std::fabs(root);
   if (slope > 0.0) return {clamped(std::ceil(root - loose), {within.low, within.high + 1}), within.high};
   return {within.low, clamped(std::floor(root + loose), {within.low - 1, within.high})};
 }
 
 CellRange ViewCone::in_range(int axis, const std::array<double, 3>& centre, const CellRange& within) const {
   if (!std::isfinite(range_)) return within;
-  const double r = range_ * (1.0 + 1e-12) + slack;
+  const double r = range_ * (1.0 + 1e-12) + slack_;
   double rest = r * r;
   for (int k = 0; k < dimension_; ++k) {
     if (k == axis) continue;
@@ -62,7 +64,7 @@ CellRange ViewCone::in_range(int axis, const std::array<double, 3>& centre, cons
     rest -= gap * gap;
   }
   if (rest < 0.0) return {};
-  const double half = std::sqrt(rest) + 0.5 + slack;
+  const double half = std::sqrt(rest) + 0.5 + slack_;
   const double middle = -centre[static_cast<std::size_t>(axis)];
   return {clamped(std::ceil(middle - half), {within.low, within.high + 1}),
           clamped(std::floor(middle + half), {within.low - 1, within.high})};

@@ -52,6 +52,7 @@ class ViewCone {
   std::array<Side, 4> side_{};
   std::array<double, 3> offset_{};  // cell centre minus viewpoint for the viewer's own cell
   double range_;                    // cells
+  double slack_;                    // cells: see view_cone.cpp
 };
 
 }  // namespace gridcull

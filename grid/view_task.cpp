@@ -160,7 +160,6 @@ void ViewTask::look(std::size_t brick, std::uint64_t bits) {
 
 void ViewTask::look_outside() {
   GridWorld& world = *world_;
-  // reveal() may not touch the list, but it fills pending_; so walk the list itself.
   for (const Slot slot : world.outside) {
     const ObjectState& state = world.objects[slot];
     if (state.place == Place::active) {
