@@ -82,13 +82,13 @@ Lattice::Lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t
   if (!(cell > 0.0) || !(cell <= 1e9)) {
     throw Error(ErrorCode::bad_scene, "grid.cell: expected a size above 0 and at most 1e9, found " + text(cell));
   }
+  const Vec3 along = count(dimension, extent, cell);
+  if (!fits(dimension, along, max_memory)) refuse(dimension, extent, cell, max_memory);
   const Vec3 far = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
   if (cell < 0x1p-40 * std::fmax(far.x, std::fmax(far.y, far.z))) {
     throw Error(ErrorCode::bad_scene,
                 "grid.cell: expected at least 1e-12 of the bounds' greatest coordinate, found " + text(cell));
   }
-  const Vec3 along = count(dimension, extent, cell);
-  if (!fits(dimension, along, max_memory)) refuse(dimension, extent, cell, max_memory);
   cells_ = rounded(along);
   const auto bricks_along = [&](std::int64_t n) { return (n + brick_edge() - 1) >> brick_shift(); };
   bricks_ = {bricks_along(cells_.x), bricks_along(cells_.y), dimension == 3 ? bricks_along(cells_.z) : 1};

@@ -146,7 +146,7 @@ TEST_CASE("a grid beyond the memory allowed is refused with a cell size that fit
   // Long and thin ones waste most bits of a brick; tiny budgets hold a few bricks.
   const Bounds thin{{0, 0, 0}, {1e9, 1, 1}};
   for (const Bounds& bounds : {cube, thin}) {
-    for (const std::uint64_t memory : {std::uint64_t{48}, std::uint64_t{5000}, std::uint64_t{1} << 20, plenty}) {
+    for (const std::uint64_t memory : {std::uint64_t{200}, std::uint64_t{5000}, std::uint64_t{1} << 20, plenty}) {
       const Refusal r = refusal(3, bounds, 1e-2, memory);
       INFO(r.text);
       CHECK(r.code == ErrorCode::limit);
@@ -157,6 +157,8 @@ TEST_CASE("a grid beyond the memory allowed is refused with a cell size that fit
     }
   }
   CHECK(refusal(2, {{0, 0, 0}, {1e9, 1e9, 0}}, 1e-9, plenty).code == ErrorCode::limit);
+  // Cells that the coordinates cannot tell apart.
+  CHECK(refusal(2, {{1, 1, 0}, {1, 1, 0}}, 1e-30, plenty).code == ErrorCode::bad_scene);
   CHECK(refusal(2, {{0, 0, 0}, {1, 1, 0}}, 1.0, 47).code == ErrorCode::limit);
 }
 
