@@ -37,13 +37,13 @@ class PositionSource {
 
 /// Work of one viewer's query. Counts do not depend on the machine, so tests can assert them.
 struct WorkCounts {
-  std::uint64_t cells_visited = 0;   ///< cells of the view volume that were not hidden
-  std::uint64_t cells_hidden = 0;    ///< cells marked hidden by occlusion
-  std::uint64_t object_tests = 0;    ///< (cell group, object) pairs looked at
-  std::uint64_t occluders = 0;       ///< extended occluders (2D legs, 3D caps)
-  std::uint64_t rasters = 0;         ///< rows or runs rasterised as hidden
-  std::uint64_t tbv_tests = 0;       ///< temporal bounding volumes looked at
-  std::uint64_t tbv_revealed = 0;    ///< temporal bounding volumes found visible
+  std::uint64_t cells_visited = 0;  ///< cells of the view volume that were not hidden
+  std::uint64_t cells_hidden = 0;   ///< cells marked hidden by occlusion
+  std::uint64_t object_tests = 0;   ///< (cell group, object) pairs looked at
+  std::uint64_t occluders = 0;      ///< extended occluders (2D legs, 3D caps)
+  std::uint64_t rasters = 0;        ///< rows or runs rasterised as hidden
+  std::uint64_t tbv_tests = 0;      ///< temporal bounding volumes looked at
+  std::uint64_t tbv_revealed = 0;   ///< temporal bounding volumes found visible
 };
 
 /// One viewer's potentially visible set.
@@ -59,13 +59,13 @@ struct FrameStats {
   std::uint64_t tbv_active = 0;      ///< temporal bounding volumes alive at the end of the frame
   std::uint64_t tbv_revealed = 0;
   std::uint64_t tbv_expired = 0;
-  std::uint64_t jumps = 0;           ///< moves beyond max_speed, accepted and handled
+  std::uint64_t jumps = 0;  ///< moves beyond max_speed, accepted and handled
   // Microseconds of wall clock, summed over threads.
   double discretise_us = 0;
   double traverse_us = 0;
   double occlude_us = 0;
   double collect_us = 0;
-  double total_us = 0;               ///< wall clock of the frame
+  double total_us = 0;  ///< wall clock of the frame
 };
 
 struct Answers {

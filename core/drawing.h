@@ -8,12 +8,12 @@
 namespace gridcull {
 
 enum class CellLayer {
-  visited,        ///< in the view volume and not hidden
-  opaque,         ///< O: wholly inside one occluder
-  hidden,         ///< H: wholly hidden from the viewer
-  touched,        ///< I: an object may touch it
-  tbv,            ///< T: a temporal bounding volume touches it
-  line_of_sight   ///< seed cells of the traversal
+  visited,       ///< in the view volume and not hidden
+  opaque,        ///< O: wholly inside one occluder
+  hidden,        ///< H: wholly hidden from the viewer
+  touched,       ///< I: an object may touch it
+  tbv,           ///< T: a temporal bounding volume touches it
+  line_of_sight  ///< seed cells of the traversal
 };
 
 /// Boxes are [low, high] in metres and stand for one cell or a run of cells. In 2D z is 0.

@@ -100,8 +100,8 @@ std::vector<Vec3> place(const std::vector<Vec3>& local, const Pose& pose) {
 int dimension_of(const Shape& shape) { return shape.index() < 4 ? 2 : 3; }
 
 std::string_view name_of(const Shape& shape) {
-  constexpr std::array<std::string_view, 9> names{"disc", "box", "polygon", "polyline", "sphere",
-                                                  "box",  "prism", "convex", "faces"};
+  constexpr std::array<std::string_view, 9> names{"disc", "box",   "polygon", "polyline", "sphere",
+                                                  "box",  "prism", "convex",  "faces"};
   return names[shape.index()];
 }
 
@@ -111,13 +111,12 @@ bool is_thin(const Shape& shape) {
 
 double reach_of(const Shape& shape) {
   const double exact = std::visit(
-      Overload{[](const Disc& s) { return s.radius; }, [](const Rectangle& s) { return 0.5 * glm::length(s.size); },
-               [](const Polygon& s) { return farthest(s.vertices); },
-               [](const Polyline& s) { return farthest(s.vertices); }, [](const Sphere& s) { return s.radius; },
-               [](const Cuboid& s) { return 0.5 * glm::length(s.size); },
-               [](const Prism& s) { return std::hypot(farthest(s.vertices), s.height); },
-               [](const Convex& s) { return farthest(s.vertices); },
-               [](const Faces& s) { return farthest(s.vertices); }},
+      Overload{
+          [](const Disc& s) { return s.radius; }, [](const Rectangle& s) { return 0.5 * glm::length(s.size); },
+          [](const Polygon& s) { return farthest(s.vertices); }, [](const Polyline& s) { return farthest(s.vertices); },
+          [](const Sphere& s) { return s.radius; }, [](const Cuboid& s) { return 0.5 * glm::length(s.size); },
+          [](const Prism& s) { return std::hypot(farthest(s.vertices), s.height); },
+          [](const Convex& s) { return farthest(s.vertices); }, [](const Faces& s) { return farthest(s.vertices); }},
       shape);
   // Covers a dozen roundings of 2^-53 each and orientations that are off unit length by 1e-9.
   return exact * (1.0 + 1e-8);

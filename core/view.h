@@ -14,7 +14,7 @@ namespace gridcull {
 struct Frustum {
   double fov_y = std::numbers::pi / 3;  ///< radians, full angle over the height, 0 < fov_y < pi
   double aspect = 1.0;                  ///< width / height, 1e-6 .. 1e6
-  double near = 0.0;  ///< planar depth, >= 0; nearer things are not seen but still occlude
+  double near = 0.0;                    ///< planar depth, >= 0; nearer things are not seen but still occlude
   double far = std::numeric_limits<double>::infinity();  ///< planar depth, > near
 };
 

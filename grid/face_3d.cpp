@@ -107,23 +107,24 @@ bool Face3D::scan(std::int64_t k, std::vector<std::uint64_t>& fresh, std::vector
   return seen.v.low <= seen.v.high;
 }
 
+Face3D::BrickRow Face3D::brick_row(std::int64_t k, std::int64_t v) const {
+  Cell start = cell(k, 0, v);
+  start.x += axis_ == 0 ? viewer_d_ : viewer_u_;
+  start.y += axis_ == 1 ? viewer_d_ : axis_ == 0 ? viewer_u_ : viewer_v_;
+  start.z += axis_ == 2 ? viewer_d_ : viewer_v_;
+  (u_axis_ == 0 ? start.x : start.y) = u_base_ + viewer_u_;
+  const auto low = [](std::int64_t c) { return static_cast<int>(c & 3); };
+  return {grid_->brick_of(start), grid_->stride(u_axis_),
+          axis_ == 0 ? low(start.x) + 16 * low(start.z) : 4 * low(start.y) + 16 * low(start.z)};
+}
+
 void Face3D::report(std::int64_t k, std::int64_t v, const std::uint64_t* found, std::vector<std::uint64_t>& fresh,
                     std::vector<std::size_t>& bricks) {
   // Edges shared with a face earlier in the order x, y, z belong to that face.
   const bool u_edge_foreign = axis_ != 0;  // u is x
   const bool v_edge_foreign = axis_ == 2;  // v is y
   if (v_edge_foreign && (v == k || v == -k)) return;
-  const Cell at = cell(k, 0, v);
-  const Cell absolute{at.x + (axis_ == 0 ? viewer_d_ : viewer_u_),
-                      at.y + (axis_ == 1   ? viewer_d_
-                              : axis_ == 0 ? viewer_u_
-                                           : viewer_v_),
-                      at.z + (axis_ == 2 ? viewer_d_ : viewer_v_)};
-  Cell start = absolute;
-  (u_axis_ == 0 ? start.x : start.y) = u_base_ + viewer_u_;
-  const std::size_t base = grid_->brick_of(start), stride = grid_->stride(u_axis_);
-  const int shift = axis_ == 0 ? static_cast<int>((absolute.x & 3) + 16 * (absolute.z & 3))
-                               : static_cast<int>(4 * (absolute.y & 3) + 16 * (absolute.z & 3));
+  const BrickRow at = brick_row(k, v);
   for (std::size_t w = 0; w < words_; ++w) {
     std::uint64_t bits = found[w];
     if (bits == 0) continue;
@@ -137,8 +138,8 @@ void Face3D::report(std::int64_t k, std::int64_t v, const std::uint64_t* found, 
       const int nibble = std::countr_zero(bits) >> 2;
       const std::uint64_t four = (bits >> (4 * nibble)) & 0xFu;
       bits &= ~(std::uint64_t{0xF} << (4 * nibble));
-      const std::size_t brick = base + stride * (16 * w + static_cast<std::size_t>(nibble));
-      const std::uint64_t cells = (axis_ == 0 ? spread(four) : four) << shift;
+      const std::size_t brick = at.first + at.stride * (16 * w + static_cast<std::size_t>(nibble));
+      const std::uint64_t cells = (axis_ == 0 ? spread(four) : four) << at.shift;
       grid_->visible[brick] |= cells;
       if (fresh[brick] == 0) bricks.push_back(brick);
       fresh[brick] |= cells;
@@ -147,23 +148,13 @@ void Face3D::report(std::int64_t k, std::int64_t v, const std::uint64_t* found, 
 }
 
 void Face3D::gather_opaque(std::int64_t k, std::int64_t v, std::size_t w0, std::size_t w1, std::uint64_t* out) const {
-  const Cell at = cell(k, 0, v);
-  const Cell absolute{at.x + (axis_ == 0 ? viewer_d_ : viewer_u_),
-                      at.y + (axis_ == 1   ? viewer_d_
-                              : axis_ == 0 ? viewer_u_
-                                           : viewer_v_),
-                      at.z + (axis_ == 2 ? viewer_d_ : viewer_v_)};
-  Cell start = absolute;
-  (u_axis_ == 0 ? start.x : start.y) = u_base_ + viewer_u_;
-  const std::size_t base = grid_->brick_of(start), stride = grid_->stride(u_axis_);
+  const BrickRow at = brick_row(k, v);
   const std::size_t count = static_cast<std::size_t>((u_.high - u_base_) / 4 + 1);
-  const int shift = axis_ == 0 ? static_cast<int>((absolute.x & 3) + 16 * (absolute.z & 3))
-                               : static_cast<int>(4 * (absolute.y & 3) + 16 * (absolute.z & 3));
   for (std::size_t w = w0; w <= w1; ++w) {
     std::uint64_t bits = 0;
     const std::size_t end = std::min<std::size_t>(16, count - 16 * w);
     for (std::size_t nibble = 0; nibble < end; ++nibble) {
-      const std::uint64_t word = grid_->opaque[base + stride * (16 * w + nibble)] >> shift;
+      const std::uint64_t word = grid_->opaque[at.first + at.stride * (16 * w + nibble)] >> at.shift;
       bits |= (axis_ == 0 ? squeeze(word) : word & 0xFu) << (4 * nibble);
     }
     out[w] = bits;

@@ -58,6 +58,13 @@ class Face3D {
     return hidden_.data() + plane_[static_cast<std::size_t>(k - depth_.low)] +
            static_cast<std::size_t>(v - plane_patch(k).v.low) * words_;
   }
+  /// Where a row of a plane lies in the bricks: its first brick, the step to the next along u, and the bits by
+  /// which the row's first cell is shifted inside a brick.
+  struct BrickRow {
+    std::size_t first, stride;
+    int shift;
+  };
+  BrickRow brick_row(std::int64_t k, std::int64_t v) const;
   void report(std::int64_t k, std::int64_t v, const std::uint64_t* found, std::vector<std::uint64_t>& fresh,
               std::vector<std::size_t>& bricks);
   /// O of the cells of row v in plane k, for the words [w0, w1].

@@ -1,12 +1,12 @@
 // Reaches into every installed part, so that each must link with all that it uses inside.
+#include <cstdio>
+
 #include <gridcull/core/exact.h>
 #include <gridcull/grid/engine.h>
 #include <gridcull/methods/catalog.h>
 #include <gridcull/sim/generate.h>
 #include <gridcull/sim/replay.h>
 #include <gridcull/sim/stats.h>
-
-#include <cstdio>
 
 int main() {
   using namespace gridcull;
