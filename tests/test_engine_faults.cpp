@@ -91,6 +91,28 @@ TEST_CASE("a rider that walked into the outline around its own object sees it on
   }
 }
 
+TEST_CASE("a new source is believed at once, and hidden objects are looked at again") {
+  for (const TbvMode mode : modes) {
+    GridOptions options;
+    options.bounds = {{0, 0, 0}, {128, 128, 0}};
+    options.tbv = mode;
+    GridEngine engine(options);
+    engine.add(make_static(0, Rectangle{{6, 70}}, {32, 35, 0}));
+    engine.add(make_object(1, Disc{0.5}, {60, 20, 0}, 0.0));
+    const std::vector<View> views{make_view(1, {8.5, 20.5, 0})};
+    Answers answers;
+    for (int frame = 1; frame <= 5; ++frame) {
+      engine.query(frame, views, answers);
+      CHECK(!sees(answers.views[0], 1));
+    }
+    BrokenSource source;
+    source.poses[1] = Pose{{20, 20, 0}, {}};
+    engine.set_source(&source);
+    engine.query(6, views, answers);
+    CHECK(sees(answers.views[0], 1));
+  }
+}
+
 TEST_CASE("views and poses outside the contract are refused, not answered") {
   GridOptions options;
   options.dimension = 3;
