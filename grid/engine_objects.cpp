@@ -41,6 +41,7 @@ void GridEngine::State::add(const Object& object) {
   ObjectState& state = world.objects[slot];
   state.shape.emplace(std::move(shape));
   state.reach = state.shape->reach();
+  state.round = std::holds_alternative<Disc>(object.shape) || std::holds_alternative<Sphere>(object.shape);
   state.pose = object.pose;
   state.occluder = object.occluder;
   state.is_static = object.is_static;

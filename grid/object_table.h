@@ -25,6 +25,7 @@ struct ObjectState {
   Place place = Place::gone;
   bool occluder = true;
   bool is_static = false;
+  bool round = false;                  ///< a disc or ball: its reach is its radius
   bool stale = false;                  ///< active: the pose changed since it was discretised
   bool outside = false;                ///< active: reaches beyond the lattice; hidden: its volume does
   bool hollow = false;                 ///< hidden: its volume is entered as an outline

@@ -201,12 +201,14 @@ void ViewTask::reveal(Slot slot) {
 void ViewTask::consider(Slot slot, const Pose& pose) {
   if (slot == rides_ || !mark(slot)) return;
   const ObjectState& state = world_->objects[slot];
-  if (in_view(state.shape->shape(), pose)) result_->seen.push_back(slot);
+  if (in_view(state, pose)) result_->seen.push_back(slot);
 }
 
-bool ViewTask::in_view(const Shape& shape, const Pose& pose) const {
+bool ViewTask::in_view(const ObjectState& object, const Pose& pose) const {
   if (volume_->all_round() && !std::isfinite(volume_->range())) return true;
-  return volume_->may_touch(shape, pose);
+  // The ball first: it is at hand, the shape is not.
+  if (!volume_->may_touch_ball(pose.position, object.reach)) return false;
+  return object.round || volume_->may_touch(object.shape->shape(), pose);
 }
 
 void ViewTask::collect() {
@@ -216,9 +218,24 @@ void ViewTask::collect() {
     }
   }
   for (std::size_t i = 0; i < found_count_; ++i) collect_found(found_[i]);
-  for (const Slot slot : result_->seen) answer_->visible.push_back(world_->objects[slot].id);
-  // Slots mostly run with the ids, so the list is nearly sorted as it comes.
-  std::sort(answer_->visible.begin(), answer_->visible.end());
+  list_ids();
+}
+
+// Slots mostly run with the ids, so a long answer is sorted by marking its slots in a row of bits.
+void ViewTask::list_ids() {
+  std::vector<ObjectId>& ids = answer_->visible;
+  const auto list = [&](Slot slot) { ids.push_back(world_->objects[slot].id); };
+  if (result_->seen.size() < world_->objects.size() / 64) {
+    std::for_each(result_->seen.begin(), result_->seen.end(), list);
+  } else {
+    seen_bits_.resize(std::max(seen_bits_.size(), world_->objects.size() / 64 + 1), 0);
+    for (const Slot slot : result_->seen) seen_bits_[slot / 64] |= std::uint64_t{1} << (slot % 64);
+    for (std::size_t w = 0; w < seen_bits_.size(); ++w) {
+      for_each_bit(seen_bits_[w], [&](int bit) { list(static_cast<Slot>(64 * w + static_cast<std::size_t>(bit))); });
+      seen_bits_[w] = 0;
+    }
+  }
+  if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
 }
 
 void ViewTask::collect_found(const Found& found) {
@@ -229,8 +246,8 @@ void ViewTask::collect_found(const Found& found) {
     touched = grid_.window_brick(b.brick, brick) && (grid_.visible[brick] & b.touched) != 0;
   }
   result_->revealed.push_back(found.slot);
-  const PreparedShape& shape = *world_->objects[found.slot].shape;
-  if (found.container || (touched && in_view(shape.shape(), found.pose))) result_->seen.push_back(found.slot);
+  if (found.container || (touched && in_view(world_->objects[found.slot], found.pose)))
+    result_->seen.push_back(found.slot);
 }
 
 void ViewTask::collect_brick(std::size_t brick) {

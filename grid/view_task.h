@@ -52,7 +52,8 @@ class ViewTask final : public RevealSink {
   void collect_found(const Found& found);
   void collect_brick(std::size_t brick);
   void consider(Slot slot, const Pose& pose);
-  bool in_view(const Shape& shape, const Pose& pose) const;
+  bool in_view(const ObjectState& object, const Pose& pose) const;
+  void list_ids();
   bool mark(Slot slot) {
     if (stamps_[slot] == stamp_) return false;
     stamps_[slot] = stamp_;
@@ -84,6 +85,7 @@ class ViewTask final : public RevealSink {
   std::vector<Found> found_;
   std::size_t found_count_ = 0;
   std::vector<Slot> pending_;
+  std::vector<std::uint64_t> seen_bits_;  // slots of the answer, all 0 between views
 };
 
 }  // namespace gridcull
