@@ -45,7 +45,6 @@ struct GridEngine::State {
   void leave_grid(Slot slot);
   void set_outside(Slot slot, bool outside);
   Slot slot_of(ObjectId object) const;
-  double frame_step() const { return started ? now - before : 0.0; }
 
   struct Pushed {
     Slot slot;

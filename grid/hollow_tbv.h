@@ -5,7 +5,8 @@
 // outside the outline, a line of sight to the object passes an outline cell (outline_cells.h); that cell
 // holds a visible point, so it is in view, never hidden, hence visited, and the volume is revealed. A viewer
 // whose path is 8-connected cannot get inside without standing in an outline cell in some frame, and its own
-// cell is always visited. Viewers that jump or are new are checked against every outline.
+// cell is always visited, which reveals the volume to everybody but a viewer that rides on that very object. Viewers
+// that jump, are new, or ride on another object than before are checked against every outline.
 #pragma once
 
 #include <array>

@@ -39,7 +39,6 @@ class IdentifierMatrix {
 
   /// O with O_s: opaque cells of a brick.
   std::uint64_t opaque(std::size_t brick) const { return opaque_static_[brick] | opaque_[brick]; }
-  std::uint64_t opaque_static(std::size_t brick) const { return opaque_static_[brick]; }
 
   const Entry& entry(std::uint32_t index) const { return entries_[index]; }
   std::uint32_t first_in_brick(std::size_t brick) const { return heads_[brick]; }

@@ -68,14 +68,12 @@ class ObjectTable {
     slots_.insert(id, slot);
     states_[slot] = ObjectState{};
     states_[slot].id = id;
-    ++live_;
     return slot;
   }
   void remove(Slot slot) {
     slots_.erase(states_[slot].id);
     states_[slot] = ObjectState{};
     free_.push_back(slot);
-    --live_;
   }
 
   /// The slot of an id, or `none`.
@@ -83,7 +81,6 @@ class ObjectTable {
   ObjectState& operator[](Slot slot) { return states_[slot]; }
   const ObjectState& operator[](Slot slot) const { return states_[slot]; }
   std::size_t size() const { return states_.size(); }
-  std::size_t live() const { return live_; }
 
   std::uint64_t bytes() const { return states_.capacity() * sizeof(ObjectState) + slots_.bytes(); }
 
@@ -91,7 +88,6 @@ class ObjectTable {
   std::vector<ObjectState> states_;
   IdSlots slots_;
   std::vector<Slot> free_;
-  std::size_t live_ = 0;
 };
 
 }  // namespace gridcull
