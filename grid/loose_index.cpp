@@ -1,0 +1,154 @@
+#include "gridcull/grid/loose_index.h"
+
+#include <algorithm>
+
+#include "gridcull/grid/object_table.h"
+
+namespace gridcull {
+namespace {
+
+constexpr double most_nodes = 1 << 20;
+
+std::int32_t count_along(double extent, double side) {
+  return static_cast<std::int32_t>(std::floor(extent / side)) + 1;
+}
+
+}  // namespace
+
+// node_of() subtracts the box's corner, multiplies and truncates: three roundings, each below 2^-52 of the greatest
+// coordinate. So a centre lies in its node's box grown by 2^-50 of that; margin_ is 2^6 times as much.
+LooseIndex::LooseIndex(int dimension, const Bounds& box, double side) : dimension_(dimension), box_(box) {
+  double magnitude = side;
+  for (int k = 0; k < 3; ++k) magnitude = std::max({magnitude, std::fabs(box.min[k]), std::fabs(box.max[k])});
+  margin_ = 0x1p-44 * magnitude;
+  const Vec3 size = box.size();
+  const auto make = [&](double s) {
+    return Level{count_along(size.x, s), count_along(size.y, s), dimension == 3 ? count_along(size.z, s) : 1, s};
+  };
+  const auto nodes = [&](double s) {
+    return (size.x / s + 1.0) * (size.y / s + 1.0) * (dimension == 3 ? size.z / s + 1.0 : 1.0);
+  };
+  while (nodes(side) > most_nodes) side *= 2.0;
+  inverse_side_ = 1.0 / side;
+  levels_.push_back(make(side));
+  while (std::max({levels_.back().nx, levels_.back().ny, levels_.back().nz}) > 2) {
+    const Level& fine = levels_.back();
+    levels_.push_back({(fine.nx + 1) >> 1, (fine.ny + 1) >> 1, (fine.nz + 1) >> 1, 2.0 * fine.side});
+  }
+}
+
+void LooseIndex::reserve(std::size_t count) { grow(entries_, std::max(count, entries_.size())); }
+
+int LooseIndex::level_for(double radius) const {
+  const double sides = 2.0 * radius * inverse_side_;
+  return sides <= 1.0 ? 0 : std::ilogb(sides) + 1;  // 2^level > sides
+}
+
+bool LooseIndex::takes(const LooseBall& ball) const {
+  const Vec3& c = ball.centre;
+  return c.x >= box_.min.x && c.x <= box_.max.x && c.y >= box_.min.y && c.y <= box_.max.y &&
+         (dimension_ == 2 || (c.z >= box_.min.z && c.z <= box_.max.z)) && 2.0 * ball.radius <= side(top()) &&
+         level_for(ball.radius) <= top();
+}
+
+LooseIndex::NodeId LooseIndex::node_of(const Vec3& centre, int level) const {
+  const Level& fine = levels_.front();
+  const auto along = [&](double x, double low, std::int32_t count) {
+    return std::clamp(static_cast<std::int32_t>((x - low) * inverse_side_), 0, count - 1) >> level;
+  };
+  return {level, along(centre.x, box_.min.x, fine.nx), along(centre.y, box_.min.y, fine.ny),
+          dimension_ == 3 ? along(centre.z, box_.min.z, fine.nz) : 0};
+}
+
+Bounds LooseIndex::loose_box(const NodeId& id) const {
+  const double s = side(id.level);
+  const double grown = 0.5 * s + margin_;
+  Bounds box;
+  box.min = box_.min + s * Vec3(id.x, id.y, id.z) - Vec3(grown);
+  box.max = box_.min + s * Vec3(id.x + 1, id.y + 1, id.z + 1) + Vec3(grown);
+  if (dimension_ == 2) box.min.z = box.max.z = 0.0;
+  return box;
+}
+
+// A level counts for the ones above it, so those are in use too.
+void LooseIndex::use_level(int level) {
+  for (int l = level; l <= top(); ++l) {
+    Level& used = levels_[static_cast<std::size_t>(l)];
+    if (used.nodes.empty()) used.nodes.resize(used.node_count(dimension_));
+  }
+}
+
+void LooseIndex::link(Slot slot, Node& node) {
+  Entry& entry = entries_[slot];
+  entry.before = none;
+  entry.after = node.first;
+  if (node.first != none) entries_[node.first].before = slot;
+  node.first = slot;
+}
+
+void LooseIndex::unlink(Slot slot, Node& node) {
+  const Entry& entry = entries_[slot];
+  (entry.before == none ? node.first : entries_[entry.before].after) = entry.after;
+  if (entry.after != none) entries_[entry.after].before = entry.before;
+}
+
+// Adds `step` (1 or -1) to the counts from `id` up to the level below `below`.
+void LooseIndex::count(NodeId id, std::uint32_t step, int below) {
+  for (; id.level < below; ++id.level, id.x >>= 1, id.y >>= 1, id.z >>= 1) {
+    Level& level = levels_[static_cast<std::size_t>(id.level)];
+    level.nodes[level.index(id, dimension_)].below += step;
+  }
+}
+
+void LooseIndex::place(Slot slot, const LooseBall& ball) {
+  Entry& entry = entries_[slot];
+  const int height = static_cast<int>(levels_.size());
+  const int level = ball.radius == entry.ball.radius && entry.level != nowhere ? entry.level : level_for(ball.radius);
+  Level& home = levels_[static_cast<std::size_t>(level)];
+  const NodeId id = node_of(ball.centre, level);
+  const auto index = static_cast<std::uint32_t>(home.index(id, dimension_));
+  if (entry.level == level && entry.node == index) {
+    entry.ball = ball;
+    return;
+  }
+  if (home.nodes.empty()) use_level(level);
+  if (entry.level != nowhere) {
+    // Counts change only below the first ancestor that the old node and the new one share.
+    Level& old_home = levels_[entry.level];
+    NodeId from = node_of(entry.ball.centre, entry.level), to = id;
+    unlink(slot, old_home.nodes[entry.node]);
+    int shared = std::max(from.level, to.level);
+    while (shared < height && ((from.x >> (shared - from.level)) != (to.x >> (shared - to.level)) ||
+                               (from.y >> (shared - from.level)) != (to.y >> (shared - to.level)) ||
+                               (from.z >> (shared - from.level)) != (to.z >> (shared - to.level)))) {
+      ++shared;
+    }
+    count(from, ~std::uint32_t{0}, shared);
+    count(to, 1, shared);
+  } else {
+    count(id, 1, height);
+    ++size_;
+  }
+  entry.ball = ball;
+  entry.level = static_cast<std::uint8_t>(level);
+  entry.node = index;
+  link(slot, home.nodes[index]);
+}
+
+void LooseIndex::erase(Slot slot) {
+  Entry& entry = entries_[slot];
+  if (entry.level == nowhere) return;
+  unlink(slot, levels_[entry.level].nodes[entry.node]);
+  count(node_of(entry.ball.centre, entry.level), ~std::uint32_t{0}, static_cast<int>(levels_.size()));
+  entry.level = nowhere;
+  entry.node = none;
+  --size_;
+}
+
+std::uint64_t LooseIndex::node_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const Level& level : levels_) bytes += level.nodes.capacity() * sizeof(Node);
+  return bytes;
+}
+
+}  // namespace gridcull
