@@ -218,24 +218,7 @@ void ViewTask::collect() {
     }
   }
   for (std::size_t i = 0; i < found_count_; ++i) collect_found(found_[i]);
-  list_ids();
-}
-
-// Slots mostly run with the ids, so a long answer is sorted by marking its slots in a row of bits.
-void ViewTask::list_ids() {
-  std::vector<ObjectId>& ids = answer_->visible;
-  const auto list = [&](Slot slot) { ids.push_back(world_->objects[slot].id); };
-  if (result_->seen.size() < world_->objects.size() / 64) {
-    std::for_each(result_->seen.begin(), result_->seen.end(), list);
-  } else {
-    seen_bits_.resize(std::max(seen_bits_.size(), world_->objects.size() / 64 + 1), 0);
-    for (const Slot slot : result_->seen) seen_bits_[slot / 64] |= std::uint64_t{1} << (slot % 64);
-    for (std::size_t w = 0; w < seen_bits_.size(); ++w) {
-      for_each_bit(seen_bits_[w], [&](int bit) { list(static_cast<Slot>(64 * w + static_cast<std::size_t>(bit))); });
-      seen_bits_[w] = 0;
-    }
-  }
-  if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
+  ids_.list(world_->objects, result_->seen, answer_->visible);
 }
 
 void ViewTask::collect_found(const Found& found) {

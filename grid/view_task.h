@@ -8,28 +8,23 @@
 #include "gridcull/core/drawing.h"
 #include "gridcull/core/view.h"
 #include "gridcull/core/view_volume.h"
+#include "gridcull/grid/answer_ids.h"
 #include "gridcull/grid/cover_scratch.h"
 #include "gridcull/grid/grid_world.h"
 #include "gridcull/grid/stopwatch.h"
 #include "gridcull/grid/traverse_2d.h"
 #include "gridcull/grid/traverse_3d.h"
+#include "gridcull/grid/view_answerer.h"
 #include "gridcull/grid/view_grid.h"
 
 namespace gridcull {
 
-/// What one view tells the engine beside its answer.
-struct ViewResult {
-  std::vector<Slot> seen;      ///< the answer, as slots
-  std::vector<Slot> revealed;  ///< hidden objects whose temporal bounding volume this view found visible
-  double traverse_us = 0, occlude_us = 0, collect_us = 0;
-};
-
-class ViewTask final : public RevealSink {
+class ViewTask final : public ViewAnswerer, private RevealSink {
  public:
   /// Throws as ViewVolume does, and what the PositionSource throws. `draw` may be nullptr.
-  void run(GridWorld& world, const View& view, Answer& answer, ViewResult& result, DrawSink* draw);
+  void run(GridWorld& world, const View& view, Answer& answer, ViewResult& result, DrawSink* draw) override;
 
-  std::uint64_t bytes() const;
+  std::uint64_t bytes() const override;
 
  private:
   struct Found {  // a revealed object's cover, this viewer's own
@@ -53,7 +48,6 @@ class ViewTask final : public RevealSink {
   void collect_brick(std::size_t brick);
   void consider(Slot slot, const Pose& pose);
   bool in_view(const ObjectState& object, const Pose& pose) const;
-  void list_ids();
   bool mark(Slot slot) {
     if (stamps_[slot] == stamp_) return false;
     stamps_[slot] = stamp_;
@@ -85,7 +79,7 @@ class ViewTask final : public RevealSink {
   std::vector<Found> found_;
   std::size_t found_count_ = 0;
   std::vector<Slot> pending_;
-  std::vector<std::uint64_t> seen_bits_;  // slots of the answer, all 0 between views
+  AnswerIds ids_;
 };
 
 }  // namespace gridcull
