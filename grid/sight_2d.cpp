@@ -1,0 +1,128 @@
+#include "gridcull/grid/sight_2d.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridcull {
+namespace {
+
+/// Of the distance: see the claim about discs.
+constexpr double disc_margin = 1e-10;
+/// Of the range: norms of points relative to the viewer are off by less than 4 u.
+constexpr double range_margin = 0x1p-50;
+
+struct Span {
+  Vec2 from, to;
+};
+
+/// Directions `centre` turned by -+ the angle whose cosine and sine are as `along` and `across`.
+Span turned_both_ways(const Vec2& centre, double along, double across) {
+  const Vec2 ahead = along * centre, left = across * Vec2(-centre.y, centre.x);
+  return {ahead - left, ahead + left};
+}
+
+}  // namespace
+
+void Sight2D::begin(const ViewVolume& volume) {
+  eye_ = Vec2(volume.apex());
+  range_ = volume.range();
+  blur_ = tie * std::max(std::fabs(eye_.x), std::fabs(eye_.y));
+  buffer_.reset();
+  if (volume.all_round()) return;
+  // The sides' normals point inwards, clockwise side first; the rays that bound the field of view:
+  const Vec3 &right = volume.begin()[0].normal, &left = volume.begin()[1].normal;
+  const Vec2 first(right.y, -right.x), last(-left.y, left.x);
+  // Closed from `last` counter-clockwise to `first`.
+  int q = quadrant_from(last);
+  const int end = quadrant_to(first);
+  double begin = slope_in(q, last);
+  // Half a turn or more leaves its first quadrant even if it ends there.
+  for (bool more = q != end || volume.convex(); more; more = q != end) {
+    buffer_.close(q, begin, 1.0);
+    begin = -1.0;
+    q = (q + 1) & 3;
+  }
+  buffer_.close(q, begin, slope_in(end, first));
+}
+
+Sight2D::Disc Sight2D::look_at_disc(const Vec2& centre, double radius) const {
+  const double square = glm::dot(centre, centre), distance = std::sqrt(square);
+  const double outer = radius + disc_margin * distance + 2.0 * blur_;
+  const double gap = distance - outer;
+  if (distance - radius > range_ * (1.0 + range_margin) + range_margin * distance) return Disc::hidden;
+  if (!(gap > 0.0)) return Disc::around;
+  const double power = gap * (distance + outer), tangent = std::sqrt(power);
+  Span span;
+  if (tangent <= range_) {
+    span = turned_both_ways(centre, tangent, outer);
+  } else {
+    // The near side leaves the range before its tangents: directions to where the circles cross.
+    const double along = std::min(distance, 0.5 * (range_ * range_ + power) / distance);
+    const double rest = (range_ - along) * (range_ + along) + 1e-14 * square;
+    span = turned_both_ways(centre, along, std::sqrt(std::max(0.0, rest)));
+  }
+  bool open = false;
+  for_each_run(span.from, span.to, [&](int q, double from, double to) {
+    open = open || !buffer_.hides(q, from, to, {turned(q, centre), outer, power});
+  });
+  return open ? Disc::open : Disc::hidden;
+}
+
+void Sight2D::hide_behind_disc(const Vec2& centre, double radius, std::uint32_t owner) {
+  const double distance = glm::length(centre);
+  const double inner = std::min(radius, distance) - disc_margin * distance - 2.0 * blur_;
+  if (!(inner > 0.0)) return;
+  const double power = (distance - inner) * (distance + inner);
+  const Span span = turned_both_ways(centre, std::sqrt(power), inner);
+  const EdgeLine chord{centre / power, tie, 0.0};
+  for_each_run(span.from, span.to,
+               [&](int q, double from, double to) { buffer_.insert(q, from, to, chord.low(q), owner); });
+}
+
+bool Sight2D::shows_box(const Vec2& low, const Vec2& high) const {
+  const double dx = std::max({low.x, -high.x, 0.0}), dy = std::max({low.y, -high.y, 0.0});
+  if (dx == 0.0 && dy == 0.0) return true;
+  if (dx * dx + dy * dy > range_ * range_ * (1.0 + range_margin)) return false;
+  const auto shows = [&](const Vec2& a, const Vec2& b) {
+    EdgeLine line;
+    const Facing facing = face(a, b, blur_, line);
+    if (facing == Facing::touches) return true;
+    return facing != Facing::radial && open_width(a, b, facing, line, least_width) > least_width;
+  };
+  const double x = low.x > 0.0 ? low.x : high.x, y = low.y > 0.0 ? low.y : high.y;
+  return (dx > 0.0 && shows({x, low.y}, {x, high.y})) || (dy > 0.0 && shows({low.x, y}, {high.x, y}));
+}
+
+double Sight2D::open_width(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line, double enough) const {
+  double width = 0.0;
+  const bool left = facing == Facing::left;
+  for_each_run(left ? a : b, left ? b : a, [&](int q, double from, double to) {
+    if (width <= enough) width += buffer_.open_width(q, from, to, line.high(q), enough - width);
+  });
+  return width;
+}
+
+double Sight2D::open_width_in_range(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line,
+                                    double enough) const {
+  const double limit = range_ * range_;
+  if (glm::dot(a, a) <= limit && glm::dot(b, b) <= limit) return open_width(a, b, facing, line, enough);
+  const Vec2 d = b - a;
+  const double square = glm::dot(d, d), middle = -glm::dot(a, d) / square;
+  const Vec2 foot = a + middle * d;  // the line's nearest point
+  const double rest = limit - glm::dot(foot, foot) + 8.0 * range_margin * (limit + glm::dot(a, a));
+  if (rest < 0.0) return 0.0;
+  const double half = std::sqrt(rest / square);
+  // Rounded outwards: the error of t is some ulp of the ends' distances over the edge's length.
+  const double blur = 0x1p-48 * (1.0 + std::fabs(middle) + half);
+  const double t0 = middle - half - blur, t1 = middle + half + blur;
+  if (t0 >= 1.0 || t1 <= 0.0) return 0.0;
+  return open_width(t0 > 0.0 ? a + t0 * d : a, t1 < 1.0 ? a + t1 * d : b, facing, line, enough);
+}
+
+void Sight2D::hide_behind_edge(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line, std::uint32_t owner) {
+  const bool left = facing == Facing::left;
+  for_each_run(left ? a : b, left ? b : a,
+               [&](int q, double from, double to) { buffer_.insert(q, from, to, line.low(q), owner); });
+}
+
+}  // namespace gridcull

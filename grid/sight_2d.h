@@ -1,0 +1,55 @@
+// One viewer's sight in 2D: what of discs, edges and boxes is behind the slope buffer, and how discs hide.
+//
+// Claim (discs). A disc hides with a chord whose ends lie in it, between the tangents of a disc smaller by 1e-10 of
+// the distance d (and a tie of the coordinates, slope_edge.h): every ray between its ends passes the disc before or at
+// the chord. It is tested with its near side, larger by as much, between the tangents. The roundings are below that:
+// with |centre|^2 - radius^2 at least 2e-10 d^2, the tangent points and the chord are off by less than 4 u d^2 /
+// (1.4e-5 d) < 4e-11 d. Claim (range). What lies beyond the range is neither seen nor can it hide what is within: tests
+// are clipped to the range's circle, occluders need not be. Claim (field of view). Slopes outside are closed from the
+// start.
+#pragma once
+
+#include "gridcull/core/view_volume.h"
+#include "gridcull/grid/slope_buffer.h"
+
+namespace gridcull {
+
+class Sight2D {
+ public:
+  /// Everything within the volume is open.
+  void begin(const ViewVolume& volume);
+
+  const Vec2& eye() const { return eye_; }
+  double range() const { return range_; }
+  SlopeBuffer& buffer() { return buffer_; }
+  const SlopeBuffer& buffer() const { return buffer_; }
+
+  // All coordinates are relative to the viewer from here on.
+
+  /// Where a disc is: nothing of it is visible (beyond the range, or behind the buffer), the viewer is in it or within
+  /// 1e-10 of its border, or else.
+  enum class Disc : std::uint8_t { hidden, around, open };
+  Disc look_at_disc(const Vec2& centre, double radius) const;
+  /// Enters the chord of a disc that does not hold the viewer.
+  void hide_behind_disc(const Vec2& centre, double radius, std::uint32_t owner);
+
+  /// Whether something in the box may be visible. Closed box; false only if all of it is hidden.
+  bool shows_box(const Vec2& low, const Vec2& high) const;
+
+  /// Width in which an edge is not behind the buffer; `facing` left or right. Stops adding beyond `enough`.
+  double open_width(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line, double enough) const;
+  /// The same for its part within the range.
+  double open_width_in_range(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line, double enough) const;
+  void hide_behind_edge(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line, std::uint32_t owner);
+
+  /// Metres: places of the world this close count as one, their distance aside.
+  double blur() const { return blur_; }
+
+ private:
+  Vec2 eye_{0.0};
+  double range_ = 0.0;
+  double blur_ = 0.0;
+  SlopeBuffer buffer_;
+};
+
+}  // namespace gridcull

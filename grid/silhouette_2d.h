@@ -1,0 +1,87 @@
+// Method `silhouette` in 2D, one view: objects are entered about front to back, those that are wholly behind what was
+// entered before are dropped, the others hide what comes after (DESIGN section 5.2).
+//
+// Claim: whoever is visible is listed. Dropped is only what lies behind lines of real edges (slope_buffer.h), beyond
+// the range or outside the field of view, which is final. At the end everyone else is listed if it owns a piece
+// of the buffer, or if a test against the finished buffer finds part of it open: a wall that coincides with the
+// owner's, an object that never hides, one that was entered before its occluder. What owns a piece is not tested
+// again unless it sticks out of the range: a piece is what the viewer meets first in those directions, but for ties.
+// An object that holds the viewpoint, or has it on its border within rounding, is listed; the first kind does not hide.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gridcull/grid/identifier_matrix.h"
+#include "gridcull/grid/outline_2d.h"
+#include "gridcull/grid/sight_2d.h"
+
+namespace gridcull {
+
+/// An object where it stands. Outline and points must stay until finish().
+struct Placed2D {
+  const Outline2D* outline = nullptr;
+  Vec2 centre{0.0};              ///< of a disc that holds it (disc: the shape itself)
+  double radius = 0.0;           ///< metres
+  const Vec2* points = nullptr;  ///< world points; not for discs
+};
+
+/// World centre of the outline's bounding disc at a pose; `points` as placed by the outline.
+Placed2D placed(const Outline2D& outline, const Pose& pose, const Vec2* points);
+
+class Silhouettes2D {
+ public:
+  /// `volume` must stay until finish().
+  void begin(const ViewVolume& volume);
+
+  /// Enters an object (once a slot). False: it is hidden for good. The rider's object is not to be entered.
+  bool enter(Slot slot, const Placed2D& object, bool occluder);
+
+  /// Whether something in a closed disc or box of the world may still be visible.
+  bool shows_disc(const Vec2& centre, double radius) const;
+  bool shows_box(const Vec2& low, const Vec2& high) const {
+    return sight_.shows_box(low - sight_.eye(), high - sight_.eye());
+  }
+
+  /// Appends the slots of what is visible, in no order that means anything.
+  void finish(std::vector<Slot>& visible);
+
+  const Sight2D& sight() const { return sight_; }
+  std::size_t candidates() const { return candidates_.size(); }
+  std::uint64_t bytes() const;
+
+ private:
+  struct Edge {
+    EdgeLine line;
+    Facing facing;
+  };
+  struct Candidate {
+    Placed2D object;
+    Slot slot;
+    bool seen = false;       ///< listed without further tests
+    bool straddles = false;  ///< may stick out of the range
+  };
+
+  bool enter_outline(Candidate& c, bool occluder);
+  void hide_behind_parts(const Outline2D& outline, std::uint32_t owner);
+  bool test(const Candidate& c);
+  bool test_outline(const Candidate& c);
+  /// Fills points_ and edges_. False if the viewer stands on an edge.
+  bool face_all(const Placed2D& object);
+  bool holds_viewer(const Placed2D& object) const;
+  /// Which edges need no look when the viewer is outside and not on the outline.
+  static Facing back_of(const Outline2D& outline) {
+    if (!outline.clean() || outline.kind() != Outline2D::Kind::closed) return Facing::radial;
+    return outline.counter_clockwise() ? Facing::left : Facing::right;
+  }
+  const Vec2& end_of(std::size_t edge) const { return points_[edge + 1 < points_.size() ? edge + 1 : 0]; }
+  double magnitude(const Placed2D& object) const;
+
+  const ViewVolume* volume_ = nullptr;
+  Sight2D sight_;
+  std::vector<Candidate> candidates_;
+  std::vector<Vec2> points_;  // of the object in hand, relative to the viewer
+  std::vector<Edge> edges_;
+};
+
+}  // namespace gridcull

@@ -1,0 +1,134 @@
+// Straight edges as a viewer sees them: directions by quadrant and slope, depth as a line over the slope.
+//
+// The viewer is the origin. Quadrant q holds the directions within 45 degrees of the axis q * 90 degrees; turned by
+// that (swaps and signs only, exact), a point there has X > 0 and |Y| <= X, its slope is s = Y / X, -1 .. 1, and
+// w = 1 / X orders depths along a direction: nearer is greater. A straight edge is a straight segment in (s, w), since
+// n . p = 1 on its line gives w = nx + ny s. One formula for the slope of a point, whatever edge it ends, so edges
+// with a common vertex leave no gap. Diagonals have the slopes 1 and -1, exactly.
+//
+// Rounding. u = 2^-53. Points relative to the viewer carry a relative error of u in each coordinate: one subtraction
+// rounds once. Hence |error of s| <= 3 u. The line is n = (dy, -dx) / c with d = b - a, c = a x d:
+//   - the error of c, below 4 u (|ax dy| + |ay dx|) with those of a and d, scales the whole line: relative error
+//     4 u bulk / c;
+//   - the errors of d's direction, of the division, of nx + ny s and of s itself are below 16 u (w + |ny|).
+// World points carry roundings of their own, of a few ulp of the coordinates, so that walls meant to coincide do not.
+// As in core/exact.h, places within 1e-12 of the coordinates' size M count as one: a line is moved by that, which
+// scales w by 1 +- (1e-12 + 1e-12 M |n|). In all the true w, of whatever place counts as the same, lies within
+//     w (1 +- m) +- sigma |ny|,  m = 1e-12 + 4 u bulk / c + 1e-12 M |n|, sigma = 16 u < 1e-12 / 100.
+// `low` and `high` are the lines shifted by that, and by as much again for `high`. An edge hides with `low` and is
+// tested with `high`: what is hidden only by the width of a rounding is seen, and so are walls that coincide.
+// What rounding may do to the ends of edges (3 u of slope) can close a gap, or hide what sticks out, by less than
+// that: what is visible in slopes of less than least_width altogether, or along edges narrower than 2^-38, counts as
+// single rays, as core/culler.h allows.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "gridcull/core/vec.h"
+
+namespace gridcull {
+
+/// What is visible in slopes of less than this altogether counts as hidden: 9e-13.
+inline constexpr double least_width = 0x1p-40;
+
+/// w over the slopes of one quadrant.
+struct SlopeLine {
+  double a = 0.0, b = 0.0;
+  double at(double s) const { return a + b * s; }
+};
+
+/// The quadrant of a direction that begins a counter-clockwise range: -45 <= angle < 45 degrees is 0.
+inline int quadrant_from(const Vec2& p) {
+  if (p.y < p.x) return p.y >= -p.x ? 0 : 3;
+  return p.y > -p.x ? 1 : 2;
+}
+/// The quadrant of a direction that ends one: -45 < angle <= 45 degrees is 0.
+inline int quadrant_to(const Vec2& p) {
+  if (p.y <= p.x) return p.y > -p.x ? 0 : 3;
+  return p.y >= -p.x ? 1 : 2;
+}
+/// Slope of a point that lies in the quadrant.
+inline double slope_in(int quadrant, const Vec2& p) { return (quadrant & 1) == 0 ? p.y / p.x : -p.x / p.y; }
+/// Turns the quadrant's axis to +x. Exact. Turns the line n . p = 1 (given as n) into w = n.x + n.y s.
+inline Vec2 turned(int quadrant, const Vec2& p) {
+  switch (quadrant) {
+    case 0: return p;
+    case 1: return {p.y, -p.x};
+    case 2: return {-p.x, -p.y};
+    default: return {-p.y, p.x};
+  }
+}
+
+/// Calls f(quadrant, from, to) for the slopes from direction `from` counter-clockwise to `to`, less than half a turn.
+template <class F>
+void for_each_run(const Vec2& from, const Vec2& to, F&& f) {
+  int q = quadrant_from(from);
+  const int last = quadrant_to(to);
+  double begin = slope_in(q, from);
+  for (; q != last; q = (q + 1) & 3) {
+    f(q, begin, 1.0);
+    begin = -1.0;
+  }
+  f(q, begin, slope_in(q, to));
+}
+
+/// How an edge from a to b lies about the viewer.
+enum class Facing : std::uint8_t {
+  left,    ///< b counter-clockwise of a
+  right,   ///< b clockwise of a
+  radial,  ///< both on one ray within rounding: no width
+  touches  ///< the viewer stands on it within rounding
+};
+
+/// Of the magnitude of coordinates: places this close count as one.
+inline constexpr double tie = 1e-12;
+
+/// The line n . p = 1 through an edge, with its margin.
+struct EdgeLine {
+  Vec2 n{0.0};
+  double margin = 0.0;  ///< m
+  double peak = 0.0;    ///< where the margin is too great to be used: w is nowhere more; n is 0 then
+
+  /// Nowhere above the edge; 0, which hides nothing, where that is not sure.
+  SlopeLine low(int quadrant) const {
+    const Vec2 t = turned(quadrant, n);
+    return {t.x * (1.0 - margin) - sigma * std::fabs(t.y), t.y * (1.0 - margin)};
+  }
+  /// Nowhere below it.
+  SlopeLine high(int quadrant) const {
+    const Vec2 t = turned(quadrant, n);
+    return {t.x * (1.0 + 2.0 * margin) + sigma * std::fabs(t.y) + peak, t.y * (1.0 + 2.0 * margin)};
+  }
+
+  static constexpr double sigma = 0x1p-49;
+  static constexpr double greatest_margin = 0x1p-6;
+};
+
+/// An edge that the viewer, or its line, comes too close to: the margin is no use. Beyond the nearer end, w is
+/// at most sqrt(2) / distance.
+inline Facing face_askew(const Vec2& a, const Vec2& b, double blur, double c, double bulk, EdgeLine& line) {
+  const double nearest = std::sqrt(std::fmin(glm::dot(a, a), glm::dot(b, b)));
+  if (glm::dot(a, b) <= 0.0 || !(nearest > 128.0 * blur)) return Facing::touches;
+  if (!(std::fabs(c) > 0x1p-40 * bulk)) return Facing::radial;
+  line = {Vec2(0.0), 0.0, 1.5 / nearest};
+  return c > 0.0 ? Facing::left : Facing::right;
+}
+
+/// Sets `line` for left and right. `blur` is tie times the magnitude of the viewer's coordinates. The sign is sure: |c|
+/// is at least 2^-40 bulk, far above c's error of 4 u bulk. c is taken from the nearer end, where bulk is least; so
+/// what counts as radial is narrower than 2^-38.
+inline Facing face(const Vec2& a, const Vec2& b, double blur, EdgeLine& line) {
+  const Vec2 d = b - a;
+  const Vec2& near = glm::dot(a, a) < glm::dot(b, b) ? a : b;
+  const double p = near.x * d.y, q = near.y * d.x;
+  const double c = p - q, bulk = std::fabs(p) + std::fabs(q), inverse = 1.0 / c;
+  const double margin = tie + std::fabs(inverse) * (0x1p-51 * bulk + blur * (std::fabs(d.x) + std::fabs(d.y)));
+  if (!(margin < EdgeLine::greatest_margin && std::fabs(c) > 0x1p-40 * bulk)) {
+    return face_askew(a, b, blur, c, bulk, line);
+  }
+  line = {{d.y * inverse, -d.x * inverse}, margin, 0.0};
+  return c > 0.0 ? Facing::left : Facing::right;
+}
+
+}  // namespace gridcull
