@@ -1,0 +1,212 @@
+// Why the answers are conservative.
+//
+// Margins. Let P be the true image of a cone on a face's plane and p_k the computed corners, each within (d_x, d_y)
+// of the true one. B is the rectangle of half sides d_x, d_y, C the convex hull of the p_k: C lies in P + B, and P in
+// C + B. A pixel S whose enlargement S + B lies in C has S + B in P + B, hence S in P (P is closed and convex, B
+// compact). A pixel that P touches has S + B touching C. So growing the pixel by B, never the polygon, is right for
+// polygons of any shape, slivers too.
+//
+// d_x: a direction's coordinates err by 2^-40 of the largest, so u = x/w errs by at most
+// sqrt(3) (1 + |u|) 2^-40 |d| / w. Within the guards |u|, |v| <= 4 and |d| / w < 6, thus 2^-34; 2^-32 of the scale
+// is taken (scale: pixels to a unit of u), which leaves room for size / w = 16 (clip_cone() stretches the margins
+// beyond that). To this come rounding to multiples of 2^-32 and the evaluation of an edge's line, together below
+// 2^-30 pixels: coordinates are below 2^18, so each of the at most eight roundings in x0 + (y - y0) m equals
+// a shift of the line in y by 2^-53 2^18 at most or one of x by as much.
+//
+// Within (cover). On a row's lower and upper edge, grown by the margin, low = max over the lines of left edges,
+// high = min over those of right edges. Where low <= high there is a left edge crossing that height to the left
+// and a right one to the right, so the points between lie in C, whatever the order of the corners; the corners of
+// the pixel being in C, so is the pixel.
+//
+// Around (test). Each edge's line is pushed outward until it has every p_k on its inner side, so C lies inside it,
+// again whatever the order. A row's span is bounded by the lines where they bound it least, and by C's extent.
+//
+// Pixels outside the view: a ray strictly beyond one side plane of the face by more than its error (`slack`)
+// for all rays of a cone puts the whole cone beyond it.
+#include "gridcull/grid/coverage_mask.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gridcull/grid/mask_ball.h"
+#include "gridcull/grid/mask_clip.h"
+
+namespace gridcull {
+namespace {
+
+using masking::BallPlace;
+using masking::Clipped;
+using masking::Projection;
+
+/// By how much a ball is shrunk or grown, times its size (mask_ball.cpp); holds the error of its numbers too.
+double ball_margin(const Vec3& c, double radius) {
+  return 0x1p-34 * (std::fabs(c.x) + std::fabs(c.y) + std::fabs(c.z) + radius);
+}
+
+double square(const Vec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
+
+/// Pixel of a coordinate, -1 below 0, at most `last`.
+int pixel_of(double x, int last) { return x < 0.0 ? -1 : x >= last ? last : static_cast<int>(x); }
+
+/// Pixels [from, to) for u in [low, high] / depth, depth in [near, far] and above 0; false: none.
+bool pixel_range(double low, double high, double near, double far, double tangent, double scale, double margin,
+                 int pixels, int& from, int& to) {
+  if (low > tangent * far || high < -tangent * far) return false;
+  const auto quotient = [&](double u, double depth) { return depth > 0.0 ? u / depth : u < 0.0 ? -tangent : tangent; };
+  const double a = quotient(low, low < 0.0 ? near : far), b = quotient(high, high < 0.0 ? far : near);
+  from = std::max(0, pixel_of((a + tangent) * scale - margin, pixels));
+  to = pixel_of((b + tangent) * scale + margin, pixels - 1) + 1;
+  return from < to;
+}
+
+/// An axis-aligned box on a face of the cube: the rectangle of its image, from intervals. It errs outward only, and
+/// by no more than the box's part beside the viewpoint makes it.
+bool box_on_cube_face(const MaskFace& face, int index, const Vec3& low, const Vec3& high, masking::Rectangle& out) {
+  static constexpr int right_of[3] = {1, 0, 0}, up_of[3] = {2, 2, 1};
+  const int axis = index / 2, r = right_of[axis], u = up_of[axis];
+  const double far = index % 2 == 0 ? high[axis] : -low[axis], near = index % 2 == 0 ? low[axis] : -high[axis];
+  const masking::Window& w = face.window;
+  return far > 0.0 &&
+         pixel_range(low[r], high[r], near, far, face.tangent_x, face.scale_x, w.margin_x, w.width, out.x0, out.x1) &&
+         pixel_range(low[u], high[u], near, far, face.tangent_y, face.scale_y, w.margin_y, w.height, out.y0, out.y1);
+}
+
+}  // namespace
+
+CoverageMask::CoverageMask(InstructionSet isa) : kernels_(&masking::kernels_of(isa)) {}
+
+void CoverageMask::begin(const ViewVolume& volume, int resolution) {
+  face_count_ = 1;
+  const bool single = set_window(faces_[0], volume, resolution);
+  if (!single) {
+    face_count_ = 6;
+    for (int k = 0; k < 6; ++k) set_cube_face(faces_[static_cast<std::size_t>(k)], k, resolution);
+  }
+  std::size_t blocks = 0, coarse = 0;
+  for (int k = 0; k < face_count_; ++k) blocks += block_count(face(k)), coarse += coarse_count(face(k));
+  if (blocks_.size() < blocks) blocks_.resize(blocks);
+  if (full_.size() < coarse) full_.resize(coarse);
+  MaskBlock* block = blocks_.data();
+  std::uint64_t* full = full_.data();
+  open_blocks_ = static_cast<int>(blocks);
+  for (int k = 0; k < face_count_; ++k) {
+    clear(faces_[static_cast<std::size_t>(k)], block, full);
+    block += block_count(face(k));
+    full += coarse_count(face(k));
+  }
+  if (!single && !volume.all_round()) cover_beyond(volume);
+}
+
+void CoverageMask::cover_beyond(const ViewVolume& volume) {
+  std::uint64_t uncounted = 0;
+  for (int k = 0; k < face_count_; ++k) {
+    MaskFace& f = faces_[static_cast<std::size_t>(k)];
+    for (const HalfSpace& side : volume) {
+      masking::Polygon polygon;
+      if (f.window.open_blocks == 0 || !beyond_side(f, side.normal, polygon)) continue;
+      open_blocks_ -= kernels_->cover_polygon(f.window, polygon, uncounted);
+    }
+  }
+}
+
+void CoverageMask::cover_cone(MaskFace& face, const Vec3* rays, int count) {
+  masking::Polygon polygon;
+  const Projection where = kernels_->project(face.window, &rays[0].x, count, polygon);
+  if (where == Projection::outside) return;
+  if (where == Projection::crossing && clip_cone(face.window, rays, count, polygon) != Clipped::polygon) return;
+  open_blocks_ -= kernels_->cover_polygon(face.window, polygon, strips_);
+}
+
+bool CoverageMask::open_cone(const MaskFace& face, const Vec3* rays, int count) const {
+  masking::Polygon polygon;
+  const Projection where = kernels_->project(face.window, &rays[0].x, count, polygon);
+  if (where == Projection::outside) return false;
+  if (where == Projection::crossing) {
+    const Clipped clipped = clip_cone(face.window, rays, count, polygon);
+    if (clipped != Clipped::polygon) return clipped == Clipped::unsure;
+  }
+  return kernels_->open_polygon(face.window, polygon, strips_);
+}
+
+void CoverageMask::cover_convex(const Vec3* rays, int count) {
+  for (int k = 0; k < face_count_; ++k) {
+    MaskFace& f = faces_[static_cast<std::size_t>(k)];
+    if (f.window.open_blocks != 0) cover_cone(f, rays, count);
+  }
+}
+
+bool CoverageMask::open_convex(const Vec3* rays, int count) const {
+  for (int k = 0; k < face_count_; ++k) {
+    if (face(k).window.open_blocks != 0 && open_cone(face(k), rays, count)) return true;
+  }
+  return false;
+}
+
+void CoverageMask::cover_ball(const Vec3& centre, double radius) {
+  const double inner = radius - ball_margin(centre, radius);
+  if (!(inner > 0.0 && square(centre) * (1.0 - 0x1p-40) > radius * radius)) return;
+  Vec3 rays[masking::cone_rays];
+  bool have_rays = false;
+  for (int k = 0; k < face_count_; ++k) {
+    MaskFace& f = faces_[static_cast<std::size_t>(k)];
+    if (f.window.open_blocks == 0) continue;
+    masking::Ellipse ellipse;
+    const BallPlace place = masking::place_ball(f, f.to_face(centre), inner, ellipse);
+    if (place == BallPlace::ellipse) {
+      open_blocks_ -= kernels_->cover_ellipse(f.window, ellipse, strips_);
+    } else if (place == BallPlace::crossing) {
+      if (!have_rays) masking::rays_within(centre, inner, rays);
+      have_rays = true;
+      cover_cone(f, rays, masking::cone_rays);
+    }
+  }
+}
+
+bool CoverageMask::open_ball(const Vec3& centre, double radius) const {
+  const double outer = radius + ball_margin(centre, radius);
+  if (!(square(centre) * (1.0 - 0x1p-40) > outer * outer)) return !full();
+  Vec3 rays[masking::cone_rays];
+  bool have_rays = false;
+  for (int k = 0; k < face_count_; ++k) {
+    const MaskFace& f = face(k);
+    if (f.window.open_blocks == 0) continue;
+    masking::Ellipse ellipse;
+    const BallPlace place = masking::place_ball(f, f.to_face(centre), outer, ellipse);
+    if (place == BallPlace::ellipse) {
+      if (kernels_->open_ellipse(f.window, ellipse, strips_)) return true;
+    } else if (place == BallPlace::crossing) {
+      if (!have_rays) masking::rays_around(centre, outer, rays);
+      have_rays = true;
+      if (open_cone(f, rays, masking::cone_rays)) return true;
+    }
+  }
+  return false;
+}
+
+bool CoverageMask::open_box(const Vec3& low, const Vec3& high) const {
+  double size = 0.0;
+  for (int k = 0; k < 3; ++k) size = std::max({size, std::fabs(low[k]), std::fabs(high[k])});
+  const double margin = 0x1p-39 * size;
+  const Vec3 a = low - margin, b = high + margin;
+  if (a.x <= 0.0 && a.y <= 0.0 && a.z <= 0.0 && b.x >= 0.0 && b.y >= 0.0 && b.z >= 0.0) return !full();
+  masking::Rectangle rectangle;
+  for (int k = 0; k < face_count_; ++k) {
+    const MaskFace& f = face(k);
+    if (f.window.open_blocks == 0) continue;
+    if (face_count_ == 6) {
+      if (!box_on_cube_face(f, k, a, b, rectangle)) continue;
+    } else {
+      const Projection where = kernels_->project_box(f.window, &a.x, &b.x, rectangle);
+      if (where == Projection::outside) continue;
+      if (where == Projection::crossing) return true;
+    }
+    if (kernels_->open_rectangle(f.window, rectangle, strips_)) return true;
+  }
+  return false;
+}
+
+std::uint64_t CoverageMask::bytes() const {
+  return sizeof(*this) + blocks_.capacity() * sizeof(MaskBlock) + full_.capacity() * sizeof(std::uint64_t);
+}
+
+}  // namespace gridcull
