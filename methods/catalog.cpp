@@ -4,7 +4,9 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/grid/engine.h"
+#include "gridcull/methods/depth_rays.h"
 #include "gridcull/methods/frustum.h"
+#include "gridcull/methods/pairwise_rays.h"
 
 namespace gridcull {
 namespace {
@@ -23,12 +25,25 @@ std::unique_ptr<Culler> make_voxel(const MethodOptions& o) {
 
 std::unique_ptr<Culler> make_frustum(const MethodOptions& o) { return make_frustum_culler(o.dimension); }
 
+std::unique_ptr<Culler> make_pairwise(const MethodOptions& o) {
+  return make_pairwise_rays({o.dimension, o.bounds, o.threads});
+}
+
+std::unique_ptr<Culler> make_depth(const MethodOptions& o) {
+  DepthRaysOptions options{.bounds = o.bounds};
+  if (o.rays_width > 0) options.width = o.rays_width, options.height = o.rays_height;
+  return make_depth_rays(options);
+}
+
 }  // namespace
 
 std::span<const MethodEntry> method_catalog() {
-  static const std::array<MethodEntry, 2> entries{
-      MethodEntry{grid_engine_info(), "--cell C, --tbv off|solid|hollow, --threads N, --max-memory BYTES", &make_voxel},
-      MethodEntry{frustum_culler_info(), "", &make_frustum}};
+  static const std::array entries{
+      MethodEntry{grid_engine_info(Hiding::voxel), "--cell C, --tbv off|solid|hollow, --threads N, --max-memory BYTES",
+                  &make_voxel},
+      MethodEntry{frustum_culler_info(), "", &make_frustum},
+      MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
+      MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72)", &make_depth}};
   return entries;
 }
 

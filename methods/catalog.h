@@ -20,6 +20,8 @@ struct MethodOptions {
   std::string tbv = "solid";  ///< off, solid, hollow
   int threads = 1;            ///< 1 .. 256
   std::uint64_t max_memory = std::uint64_t{4} << 30;
+  int resolution = 0;                   ///< pixels along a cube face's edge, 1 .. 8192; 0: the method's default
+  int rays_width = 0, rays_height = 0;  ///< rays of a picture, 1 .. 8192 each; 0: the method's default
 };
 
 struct MethodEntry {

@@ -1,0 +1,21 @@
+// Depth by rays and a hierarchical depth test: what sensor simulators and game engines do in 3D.
+#pragma once
+
+#include <memory>
+
+#include "gridcull/core/bounds.h"
+#include "gridcull/core/culler.h"
+
+namespace gridcull {
+
+struct DepthRaysOptions {
+  Bounds bounds{};               ///< of the world
+  int width = 128, height = 72;  ///< rays of a picture, 1 .. 8192
+};
+
+/// Throws Error(usage) for sizes out of range, and where the library was built without Embree.
+std::unique_ptr<Culler> make_depth_rays(const DepthRaysOptions& options);
+
+const MethodInfo& depth_rays_info();
+
+}  // namespace gridcull
