@@ -28,10 +28,11 @@ constexpr double least_gap = 0x1p-16;
 int ball_sections(double distance, double radius, std::span<const double> fractions, std::span<BallSection> out) {
   if (!(radius > 0.0 && distance - radius > least_gap * distance)) return 0;
   int count = 0;
-  for (const double f : fractions) {
+  for (const double fraction : fractions) {
+    const double f = fraction < 1.0 - 0x1p-20 ? fraction : 1.0;
     const double inner = f * radius;
     const double tangent = std::sqrt((distance - inner) * (distance + inner));
-    const double depth = f < 1.0 - 0x1p-20 ? radius * std::sqrt((1.0 - f) * (1.0 + f)) : 0.0;
+    const double depth = radius * std::sqrt((1.0 - f) * (1.0 + f));
     out[static_cast<std::size_t>(count++)] = {inner * (1.0 - 0x1p-40), tangent - depth + 0x1p-40 * distance};
   }
   return count;

@@ -99,8 +99,10 @@ void scale(ConvexPiece& piece, Rounding rounding) {
   const double sign = rounding == Rounding::inward ? -shrink : shrink;
   for (Vec3& v : piece.vertices) v += sign * (v - piece.centre);
   for (auto& face : piece.faces) face.offset += sign * (face.offset - glm::dot(face.normal, piece.centre));
-  for (const Vec3& v : piece.vertices) piece.reach = std::max(piece.reach, glm::length(v));
-  piece.reach *= 1.0 + 0x1p-40;
+  for (const Vec3& v : piece.vertices) {
+    piece.reach = std::max(piece.reach, glm::length(v) * (1.0 + 0x1p-40));
+    piece.radius = std::max(piece.radius, glm::length(v - piece.centre) * (1.0 + 0x1p-40));
+  }
 }
 
 void finish(ConvexPiece& piece, Rounding rounding) {

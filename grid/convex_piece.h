@@ -46,6 +46,7 @@ struct ConvexPiece {
   Vec3 half{0.0};         ///< box: half its sizes
   double inradius = 0.0;  ///< no face plane (flat: edge) is nearer to `centre`; metres
   double slack = 0.0;     ///< see the claim; metres
+  double radius = 0.0;    ///< greatest distance of a vertex from `centre`, rounded up
   double reach = 0.0;     ///< greatest distance of a vertex from the local origin, rounded up
 
   std::uint64_t bytes() const;

@@ -13,9 +13,10 @@ bool outer_outline(const PlacedPiece& hull, Outline& out);
 /// What outer_slice() answers.
 enum class Slice { empty, outline, unknown };
 
-/// The same for the points of the object's front faces at distances from `near` to `far` (metres, closed): behind every
-/// visible point of the object stands a front point on the same ray, so slices whose ranges cover
-/// outer_outline()'s nearest .. farthest cover all there is to see. `unknown`: counts as visible.
+/// The same for the points of the hull's front faces at distances from `near` to `far` (metres, closed). Before every
+/// point of the object stands such a front point on the same ray, at one of outer_outline()'s nearest .. farthest: when
+/// slices cover that range, and each is hidden by what is nearer than its `near`, the object is hidden. `unknown`:
+/// counts as visible.
 Slice outer_slice(const PlacedPiece& hull, double near, double far, Outline& out);
 
 }  // namespace gridcull

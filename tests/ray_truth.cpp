@@ -102,7 +102,8 @@ std::optional<long double> RayTruth::faces_entrance(const Long3& d) const {
     const long double ab = dot(d, cross(a, b)), bc = dot(d, cross(b, c)), ca = dot(d, cross(c, a));
     if (!((ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0))) continue;
     const long double sum = ab + bc + ca;
-    if (sum == 0) continue;
+    // Seen edge-on: rounding, not a crossing.
+    if (std::fabs(sum) <= 1e-12L * (length(cross(a, b)) + length(cross(b, c)) + length(cross(c, a)))) continue;
     const long double at = dot(a, cross(b, c)) / sum;
     if (at > 0 && (!first || at < *first)) first = at;
   }

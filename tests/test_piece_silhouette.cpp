@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "gridcull/grid/occluder_pieces.h"
+#include "gridcull/grid/piece_sections.h"
 #include "gridcull/grid/piece_silhouette.h"
 #include "random_solids.h"
 #include "ray_truth.h"
@@ -25,8 +26,17 @@ Long3 inside(const Outline& outline, std::mt19937_64& random) {
 }
 
 struct Counts {
-  int used = 0, refused = 0, rays = 0;
+  int used = 0, refused = 0, rays = 0, sections = 0;
 };
+
+void check_rays(const RayTruth& truth, const Outline& outline, double key, std::mt19937_64& random, Counts& counts) {
+  for (int k = 0; k < 12; ++k) {
+    const auto at = truth.entrance(inside(outline, random));
+    ++counts.rays;
+    REQUIRE(at.has_value());
+    REQUIRE(*at <= static_cast<long double>(key));
+  }
+}
 
 void check(const Placement& placed, std::mt19937_64& random, Counts& counts) {
   const RayTruth truth(placed.shape, placed.pose, placed.eye);
@@ -39,24 +49,51 @@ void check(const Placement& placed, std::mt19937_64& random, Counts& counts) {
       continue;
     }
     ++counts.used;
-    for (int k = 0; k < 12; ++k) {
-      const auto at = truth.entrance(inside(outline, random));
-      ++counts.rays;
-      REQUIRE(at.has_value());
-      REQUIRE(*at <= static_cast<long double>(outline.farthest));
+    check_rays(truth, outline, outline.farthest, random, counts);
+    std::array<Section, max_sections> nested;
+    const int count = sections({piece, frame}, nested);
+    REQUIRE(count >= 1);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      check_rays(truth, nested[i].outline, nested[i].key, random, counts);
+      if (i > 0) REQUIRE(nested[i - 1].key < nested[i].key);
     }
+    counts.sections += count;
   }
 }
 
 }  // namespace
 
-TEST_CASE("silhouettes: every ray inside meets the shape by the key") {
+TEST_CASE("silhouettes and sections: every ray inside meets the shape by the key") {
   std::mt19937_64 random(5);
   Counts counts;
   for (std::uint64_t seed = 0; seed < 4000; ++seed) {
     CAPTURE(seed);
     check(random_placement(seed), random, counts);
   }
-  MESSAGE(counts.used << " used, " << counts.refused << " refused, " << counts.rays << " rays");
+  MESSAGE(counts.used << " pieces used, " << counts.refused << " refused, " << counts.sections << " sections, "
+                      << counts.rays << " rays");
   CHECK(counts.used > 4 * counts.refused);
+  CHECK(counts.sections > counts.used);
+}
+
+TEST_CASE("sections: a long wall seen from its near end hides there early") {
+  const Shape wall = Cuboid{{100, 0.3, 20}};
+  const Pose pose{{50, 5, 10}, {}};
+  const Vec3 eye(0, 0, 1.6);
+  const OccluderPieces made = make_occluder_pieces(wall);
+  std::array<Section, max_sections> nested;
+  REQUIRE(sections({made.pieces[0], sight_frame(pose, rotation_of(pose.orientation), eye)}, nested) == 4);
+  CHECK(nested[0].key < 12);
+  CHECK(nested[3].key > 100);
+  const auto holds = [](const Outline& outline, const Vec3& d) {
+    for (int i = 0; i < outline.count; ++i) {
+      const Vec3 a = outline.rays[static_cast<std::size_t>(i)];
+      const Vec3 b = outline.rays[static_cast<std::size_t>((i + 1) % outline.count)];
+      if (!(glm::dot(glm::cross(a, b), d) > 0.0)) return false;
+    }
+    return true;
+  };
+  CHECK(holds(nested[0].outline, {1, 5, 0}));
+  CHECK_FALSE(holds(nested[0].outline, {40, 5, 0}));
+  CHECK(holds(nested[3].outline, {90, 5, 0}));
 }

@@ -1,0 +1,197 @@
+// Claim. A section at distance k is spanned by points of the piece's front faces at distances up to k (rounded: up to
+// the key). They are points of the true shape K within a ball about the viewpoint, so that the claim of
+// piece_silhouette.cpp holds with them for W. Which points are taken is a matter of coverage only: nothing else that is
+// rounded here (distances, feet, the order on the hull) needs a proof, and the key is the greatest length of the points
+// as computed, rounded up. That the points lie in K: they are vertices, points between two vertices, and points of a
+// face's plane that lie to the left of all its edges by more than rounding. They take one more rotation than
+// sight_blur() counts, so slack must be twice that.
+#include "gridcull/grid/piece_sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gridcull/grid/angular_hull.h"
+#include "gridcull/grid/sight.h"
+#include "gridcull/grid/silhouette_loop.h"
+
+namespace gridcull {
+namespace {
+
+/// Ratios of farthest to nearest distance from which 2, 3 and 4 sections pay.
+constexpr std::array<double, 3> paying{1.3, 2.0, 4.0};
+/// As in piece_silhouette.cpp: keeps rays away from opposite.
+constexpr double near_face = 0x1p-12;
+
+/// Twelve directions about a circle: cosines and sines of multiples of 30 degrees. Rounded: any point will do.
+constexpr double c30 = 0.8660254037844386;
+constexpr std::array<std::array<double, 2>, 12> circle{{{1, 0},
+                                                        {c30, 0.5},
+                                                        {0.5, c30},
+                                                        {0, 1},
+                                                        {-0.5, c30},
+                                                        {-c30, 0.5},
+                                                        {-1, 0},
+                                                        {-c30, -0.5},
+                                                        {-0.5, -c30},
+                                                        {0, -1},
+                                                        {0.5, -c30},
+                                                        {c30, -0.5}}};
+
+struct Points {
+  std::array<SeenPoint, 2 * Outline::max_rays> points;
+  std::size_t count = 0;
+
+  /// What finds no room is left out.
+  void add(const Vec3& p) {
+    if (count < points.size()) points[count++].point = p;
+  }
+};
+
+/// A front face, relative to the viewpoint, in the object's axes.
+struct FrontFace {
+  Vec3 normal;
+  double height;
+  std::array<Vec3, ConvexPiece::max_vertices> corner;
+  std::size_t count;
+};
+
+void load(const ConvexPiece& piece, const Vec3& apex, const ConvexPiece::Face& face, FrontFace& out) {
+  out.normal = face.normal;
+  out.height = glm::dot(face.normal, apex) - face.offset;
+  out.count = face.count;
+  for (std::size_t i = 0; i < out.count; ++i) out.corner[i] = piece.vertices[piece.loops[face.first + i]] - apex;
+}
+
+/// Corners within k and points of edges at distance k.
+void add_border(const FrontFace& face, double k, Points& out) {
+  for (std::size_t i = 0; i < face.count; ++i) {
+    const Vec3& a = face.corner[i];
+    const Vec3 e = face.corner[i + 1 == face.count ? 0 : i + 1] - a;
+    const double ee = glm::dot(e, e), ae = glm::dot(a, e), power = glm::dot(a, a) - k * k;
+    if (power <= 0.0) out.add(a);
+    const double square = ae * ae - ee * power;
+    if (!(square > 0.0)) continue;
+    const double root = std::sqrt(square);
+    for (const double t : {(-ae - root) / ee, (-ae + root) / ee}) {
+      if (t > 0.0 && t < 1.0) out.add(a + t * e);
+    }
+  }
+}
+
+/// Points inside the face on the circle at distance k.
+void add_circle(const FrontFace& face, double k, double margin, Points& out) {
+  const double square = (k - face.height) * (k + face.height);
+  if (!(square > 0.0)) return;
+  const double radius = std::sqrt(square);
+  const Vec3 foot = -face.height * face.normal;
+  const Vec3 side = face.corner[1] - face.corner[0];
+  const Vec3 u = (radius / glm::length(side)) * side, v = glm::cross(face.normal, u);
+  for (const auto& [c, s] : circle) {
+    const Vec3 p = foot + c * u + s * v;
+    bool inside = true;
+    for (std::size_t i = 0; i < face.count && inside; ++i) {
+      const Vec3& a = face.corner[i];
+      const Vec3 e = face.corner[i + 1 == face.count ? 0 : i + 1] - a;
+      inside = glm::dot(glm::cross(e, p - a), face.normal) > margin * glm::length(e);
+    }
+    if (inside) out.add(p);
+  }
+}
+
+/// Distance of the face's nearest point.
+double distance_of(const FrontFace& face) {
+  double square = face.height * face.height;
+  bool foot_inside = true;
+  double border = std::numeric_limits<double>::infinity();
+  const Vec3 foot = -face.height * face.normal;
+  for (std::size_t i = 0; i < face.count; ++i) {
+    const Vec3& a = face.corner[i];
+    const Vec3 e = face.corner[i + 1 == face.count ? 0 : i + 1] - a;
+    foot_inside = foot_inside && glm::dot(glm::cross(e, foot - a), face.normal) >= 0.0;
+    const Vec3 p = a + std::clamp(-glm::dot(a, e) / glm::dot(e, e), 0.0, 1.0) * e;
+    border = std::min(border, glm::dot(p, p));
+  }
+  if (!foot_inside) square = border;
+  return std::sqrt(square);
+}
+
+class Sections {
+ public:
+  Sections(const PlacedPiece& placed, const VertexLoop& loop) : placed_(placed), loop_(loop) {}
+
+  double nearest() const {
+    double least = std::numeric_limits<double>::infinity();
+    for_front_faces([&](const FrontFace& face) { least = std::min(least, distance_of(face)); });
+    return least;
+  }
+
+  bool at(double k, Section& out) const {
+    if (!(loop_.height > near_face * k)) return false;
+    Points points;
+    for_front_faces([&](const FrontFace& face) {
+      add_border(face, k, points);
+      add_circle(face, k, 0x1p-44 * (k + placed_.piece.reach), points);
+    });
+    if (points.count < 3) return false;
+    const Vec3 axis = -placed_.piece.faces[static_cast<std::size_t>(loop_.highest)].normal;
+    angular_hull({points.points.data(), points.count}, axis, out.outline);
+    if (out.outline.count < 3) return false;
+    double square = 0.0;
+    for (int i = 0; i < out.outline.count; ++i) {
+      Vec3& ray = out.outline.rays[static_cast<std::size_t>(i)];
+      ray = placed_.frame.rotation * ray;
+      square = std::max(square, glm::dot(ray, ray));
+    }
+    out.key = rounded_up(std::sqrt(square));
+    return true;
+  }
+
+ private:
+  template <class F>
+  void for_front_faces(const F& f) const {
+    FrontFace front;
+    for (const auto& face : placed_.piece.faces) {
+      load(placed_.piece, placed_.frame.apex, face, front);
+      if (front.height > 0.0) f(front);
+    }
+  }
+
+  const PlacedPiece& placed_;
+  const VertexLoop& loop_;
+};
+
+/// Keys wanted between the two: about geometric, by square roots, which round alike everywhere.
+int wanted_keys(double nearest, double farthest, std::array<double, 3>& keys) {
+  const double ratio = farthest / nearest, half = std::sqrt(ratio), quarter = std::sqrt(half);
+  if (!(ratio > paying[0])) return 0;
+  if (!(ratio > paying[1])) return keys[0] = nearest * half, 1;
+  if (!(ratio > paying[2])) return keys = {nearest * quarter * std::sqrt(quarter), nearest * half * quarter, 0.0}, 2;
+  return keys = {nearest * quarter, nearest * half, nearest * half * quarter}, 3;
+}
+
+}  // namespace
+
+int sections(const PlacedPiece& placed, std::span<Section> out) {
+  Outline whole;
+  if (out.empty() || !silhouette(placed, whole)) return 0;
+  int count = 0;
+  const double least = whole.farthest - 2.0 * placed.piece.radius;
+  const bool pays = out.size() > 1 && whole.farthest > paying[0] * least &&
+                    2.0 * sight_blur(placed.piece, placed.frame) <= placed.piece.slack;
+  if (pays) {
+    VertexLoop loop;
+    find_loop(placed.piece, placed.frame.apex, loop);
+    const Sections at(placed, loop);
+    std::array<double, 3> keys;
+    const int wanted = std::min(wanted_keys(at.nearest(), whole.farthest, keys), static_cast<int>(out.size()) - 1);
+    for (int i = 0; i < wanted; ++i) {
+      Section& section = out[static_cast<std::size_t>(count)];
+      if (at.at(keys[static_cast<std::size_t>(i)], section) && section.key < whole.farthest) ++count;
+    }
+  }
+  out[static_cast<std::size_t>(count++)] = {whole, whole.farthest};
+  return count;
+}
+
+}  // namespace gridcull
