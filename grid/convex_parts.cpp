@@ -33,46 +33,61 @@ struct Line {
   Vec2 a, b;
 };
 
-bool all_left(const ConvexPart& seed, const Vec2& a, const Vec2& b) {
-  return std::all_of(seed.begin(), seed.end(), [&](const Vec2& p) { return orientation(a, b, p) >= 0; });
+bool all_left(const ConvexPart& seed, const Line& line) {
+  return std::all_of(seed.begin(), seed.end(), [&](const Vec2& p) { return orientation(line.a, line.b, p) >= 0; });
 }
 
-/// The wall's own line if the seed lies on one side of it; else lines through one of its ends: along the seed's base,
-/// or through a corner of the seed.
-std::vector<Line> separators(const Wall& wall, const ConvexPart& seed) {
-  std::vector<Line> out;
-  const auto offer = [&](const Vec2& a, const Vec2& b) {
-    if (a == b) return;
-    if (all_left(seed, a, b) && orientation(a, b, wall.a) <= 0 && orientation(a, b, wall.b) <= 0) out.push_back({a, b});
-    if (all_left(seed, b, a) && orientation(b, a, wall.a) <= 0 && orientation(b, a, wall.b) <= 0) out.push_back({b, a});
-  };
-  offer(wall.a, wall.b);
-  if (!out.empty()) return out;
-  for (const Vec2& end : {wall.a, wall.b}) {
-    offer(end, end + (seed[1] - seed[0]));
-    for (const Vec2& p : seed) offer(end, p);
-  }
-  return out;
-}
-
-/// Cuts the box down to a part that holds the seed and that no wall intrudes into.
-ConvexPart grow(const ConvexPart& seed, const std::vector<Wall>& walls, ConvexPart part, std::uint64_t& work) {
-  for (std::size_t turn = 0; turn <= walls.size() && part.size() >= 3 && work < most_work; ++turn) {
-    ConvexPart best;
-    double most = -1.0;
-    bool clear = true;
-    for (const Wall& wall : walls) {
-      work += part.size();
-      if (!intrudes(wall, part)) continue;
-      clear = false;
-      for (const Line& line : separators(wall, seed)) {
-        ConvexPart left = strictly_convex(cut_left(part, line.a, line.b));
-        const double area = area_of(left);
-        if (area > most) most = area, best = std::move(left);
-      }
+/// The line through a and b, either way round, if it keeps the seed on its left and the wall on its right.
+void offer(const Vec2& a, const Vec2& b, const Wall& wall, const ConvexPart& seed, std::vector<Line>& out) {
+  for (const Line& l : {Line{a, b}, Line{b, a}}) {
+    if (a != b && orientation(l.a, l.b, wall.a) <= 0 && orientation(l.a, l.b, wall.b) <= 0 && all_left(seed, l)) {
+      out.push_back(l);
     }
-    if (clear) return part;
-    part = std::move(best);
+  }
+}
+
+/// Lines through an end of the wall: along the seed's base, or through a corner of the seed. Where the wall's own line
+/// crosses the seed, one of these parts the two.
+void add_tangents(const Wall& wall, const ConvexPart& seed, std::vector<Line>& out) {
+  for (const Vec2& end : {wall.a, wall.b}) {
+    offer(end, end + (seed[1] - seed[0]), wall, seed, out);
+    for (const Vec2& p : seed) offer(end, p, wall, seed, out);
+  }
+}
+
+/// The cut that leaves most, along a wall's own line if there is one such; none: an empty part.
+Line best_cut(const std::vector<Wall>& intruders, const ConvexPart& seed, ConvexPart& part) {
+  std::vector<Line> lines;
+  for (const Wall& wall : intruders) offer(wall.a, wall.b, wall, seed, lines);
+  if (lines.empty()) {
+    for (const Wall& wall : intruders) add_tangents(wall, seed, lines);
+  }
+  ConvexPart best;
+  Line best_line{};
+  for (const Line& line : lines) {
+    ConvexPart left = strictly_convex(cut_left(part, line.a, line.b));
+    if (best.empty() || area_of(left) > area_of(best)) best = std::move(left), best_line = line;
+  }
+  part = std::move(best);
+  return best_line;
+}
+
+/// Cuts the box down to a part that holds the seed and that no wall intrudes into, but for the rounding of its corners:
+/// a wall that a cut has on its right is done with, or it would seem to intrude again and again.
+ConvexPart grow(const ConvexPart& seed, std::vector<Wall> walls, ConvexPart part, std::uint64_t& work) {
+  std::vector<Wall> intruders;
+  while (part.size() >= 3 && work < most_work) {
+    work += walls.size() * part.size();
+    intruders.clear();
+    for (const Wall& wall : walls) {
+      if (intrudes(wall, part)) intruders.push_back(wall);
+    }
+    if (intruders.empty()) return part;
+    work += intruders.size() * part.size();
+    const Line cut = best_cut(intruders, seed, part);
+    std::erase_if(walls, [&](const Wall& w) {
+      return orientation(cut.a, cut.b, w.a) <= 0 && orientation(cut.a, cut.b, w.b) <= 0;
+    });
   }
   return {};
 }
