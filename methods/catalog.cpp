@@ -39,8 +39,7 @@ std::unique_ptr<Culler> make_depth(const MethodOptions& o) {
 
 std::span<const MethodEntry> method_catalog() {
   static const std::array entries{
-      MethodEntry{grid_engine_info(Hiding::voxel), "--cell C, --tbv off|solid|hollow, --threads N, --max-memory BYTES",
-                  &make_voxel},
+      MethodEntry{grid_engine_info(), "--cell C, --tbv off|solid|hollow, --threads N, --max-memory BYTES", &make_voxel},
       MethodEntry{frustum_culler_info(), "", &make_frustum},
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
       MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72)", &make_depth}};
