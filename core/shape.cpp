@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/world_points.h"
 
 namespace gridcull {
 namespace {
@@ -79,22 +80,6 @@ double farthest(const std::vector<V>& points) {
   return best;
 }
 
-std::vector<Vec2> place(const std::vector<Vec2>& local, const Pose& pose) {
-  const Rotation r = rotation_of(pose.orientation);
-  std::vector<Vec2> world;
-  world.reserve(local.size());
-  for (const Vec2& p : local) world.emplace_back(to_world(pose, r, {p.x, p.y, 0.0}));
-  return world;
-}
-
-std::vector<Vec3> place(const std::vector<Vec3>& local, const Pose& pose) {
-  const Rotation r = rotation_of(pose.orientation);
-  std::vector<Vec3> world;
-  world.reserve(local.size());
-  for (const Vec3& p : local) world.push_back(to_world(pose, r, p));
-  return world;
-}
-
 }  // namespace
 
 int dimension_of(const Shape& shape) { return shape.index() < 4 ? 2 : 3; }
@@ -167,42 +152,22 @@ void validate(const Shape& shape) {
 
 std::vector<Vec2> merged_outline(const std::vector<Vec2>& vertices) {
   std::vector<Vec2> out;
-  for (const Vec2& p : vertices) {
-    if (out.empty() || out.back() != p) out.push_back(p);
-  }
-  while (out.size() > 1 && out.back() == out.front()) out.pop_back();
+  for_each_merged(vertices, [&](const Vec2& p) { out.push_back(p); });
   return out;
 }
 
 std::vector<Vec2> world_outline(const Shape& shape, const Pose& pose) {
-  if (const auto* box = std::get_if<Rectangle>(&shape)) {
-    const Vec2 h = 0.5 * box->size;
-    return place(std::vector<Vec2>{{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}}, pose);
-  }
-  if (const auto* polygon = std::get_if<Polygon>(&shape)) return place(merged_outline(polygon->vertices), pose);
-  if (const auto* line = std::get_if<Polyline>(&shape)) return place(line->vertices, pose);
-  return {};
+  std::vector<Vec2> world;
+  if (dimension_of(shape) == 3) return world;
+  for_each_world_point(shape, pose, [&](const Vec3& p) { world.emplace_back(p); });
+  return world;
 }
 
 std::vector<Vec3> world_vertices(const Shape& shape, const Pose& pose) {
-  if (const auto* box = std::get_if<Cuboid>(&shape)) {
-    std::vector<Vec3> local;
-    for (int i = 0; i < 8; ++i) {
-      local.push_back(0.5 * box->size * Vec3((i & 1) ? 1.0 : -1.0, (i & 2) ? 1.0 : -1.0, (i & 4) ? 1.0 : -1.0));
-    }
-    return place(local, pose);
-  }
-  if (const auto* prism = std::get_if<Prism>(&shape)) {
-    const std::vector<Vec2> outline = merged_outline(prism->vertices);
-    std::vector<Vec3> local;
-    for (const double z : {0.0, prism->height}) {
-      for (const Vec2& p : outline) local.emplace_back(p.x, p.y, z);
-    }
-    return place(local, pose);
-  }
-  if (const auto* convex = std::get_if<Convex>(&shape)) return place(convex->vertices, pose);
-  if (const auto* faces = std::get_if<Faces>(&shape)) return place(faces->vertices, pose);
-  return {};
+  std::vector<Vec3> world;
+  if (dimension_of(shape) == 2) return world;
+  for_each_world_point(shape, pose, [&](const Vec3& p) { world.push_back(p); });
+  return world;
 }
 
 }  // namespace gridcull

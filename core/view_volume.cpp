@@ -8,6 +8,7 @@
 #include "gridcull/core/error.h"
 #include "gridcull/core/hull.h"
 #include "gridcull/core/trigonometry.h"
+#include "gridcull/core/world_points.h"
 
 namespace gridcull {
 namespace {
@@ -104,13 +105,14 @@ bool ViewVolume::may_touch_ball(const Vec3& centre, double radius) const {
 bool ViewVolume::may_touch(const Shape& shape, const Pose& pose) const {
   if (!may_touch_ball(pose.position, reach_of(shape))) return false;
   if (std::holds_alternative<Disc>(shape) || std::holds_alternative<Sphere>(shape)) return true;
-  std::vector<Vec3> points = world_vertices(shape, pose);
-  if (dimension_ == 2) {
-    for (const Vec2& p : world_outline(shape, pose)) points.emplace_back(p, 0.0);
-  }
+  const Rotation r = rotation_of(pose.orientation);
   const bool touches = may_touch_support([&](const Vec3& n) {
     double best = -std::numeric_limits<double>::infinity();
-    for (const Vec3& p : points) best = std::max(best, glm::dot(n, p - apex_) + slack(p, apex_));
+    for_each_local_point(shape, [&](const Vec3& local) {
+      Vec3 p = to_world(pose, r, local);
+      if (dimension_ == 2) p.z = 0.0;
+      best = std::max(best, glm::dot(n, p - apex_) + slack(p, apex_));
+    });
     return best;
   });
   if (!touches) return false;
@@ -128,28 +130,31 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return glm::length(p - (a + t * e));
 }
 
-/// Even-odd rule; points on the outline count as either.
-bool even_odd(const std::vector<Vec2>& outline, const Vec2& p) {
+/// Even-odd rule, edge by edge; points on the outline count as either.
+struct EvenOdd {
+  Vec2 point;
   bool inside = false;
-  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const Vec2 &a = outline[j], &b = outline[i];
-    if ((a.y > p.y) == (b.y > p.y)) continue;
-    const double side = cross2(b - a, p - a);
+  bool on_outline = false;  ///< judged on the rounded points
+
+  void add(const Vec2& a, const Vec2& b) {
+    const Vec2 from = a - point, to = b - point;
+    on_outline = on_outline || (cross2(from, to) == 0.0 && glm::dot(from, to) <= 0.0);
+    if ((a.y > point.y) == (b.y > point.y)) return;
+    const double side = cross2(b - a, point - a);
     if ((b.y > a.y) ? side > 0.0 : side < 0.0) inside = !inside;
   }
-  return inside;
+};
+
+/// Whether the closed outline's interior holds the point; `points` as in for_each_edge().
+template <class Points>
+bool outline_holds(const Points& points, const Vec2& p) {
+  EvenOdd rule{p};
+  for_each_edge(points, false, [&](const Vec2& a, const Vec2& b) { rule.add(a, b); });
+  return rule.inside && !rule.on_outline;
 }
 
-bool on_outline(const std::vector<Vec2>& outline, const Vec2& p) {
-  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const Vec2 a = outline[j] - p, b = outline[i] - p;
-    if (cross2(a, b) == 0.0 && glm::dot(a, b) <= 0.0) return true;
-  }
-  return false;
-}
-
-bool polygon_holds(const std::vector<Vec2>& outline, const Vec2& p) {
-  return even_odd(outline, p) && !on_outline(outline, p);
+auto world_points(const Shape& shape, const Pose& pose) {
+  return [&](auto&& f) { for_each_world_point(shape, pose, [&](const Vec3& p) { f(Vec2(p)); }); };
 }
 
 }  // namespace
@@ -158,15 +163,14 @@ double distance_2d(const Vec2& point, const Shape& shape, const Pose& pose) {
   if (const auto* disc = std::get_if<Disc>(&shape)) {
     return std::fmax(0.0, glm::length(point - Vec2(pose.position)) - disc->radius);
   }
-  const std::vector<Vec2> outline = world_outline(shape, pose);
   const bool open = is_thin(shape);
-  if (!open && even_odd(outline, point)) return 0.0;
+  EvenOdd rule{point};
   double best = std::numeric_limits<double>::infinity();
-  for (std::size_t i = open ? 1 : 0; i < outline.size(); ++i) {
-    const Vec2& before = outline[i == 0 ? outline.size() - 1 : i - 1];
-    best = std::fmin(best, distance_to_segment(point, before, outline[i]));
-  }
-  return best;
+  for_each_edge(world_points(shape, pose), open, [&](const Vec2& a, const Vec2& b) {
+    rule.add(a, b);
+    best = std::fmin(best, distance_to_segment(point, a, b));
+  });
+  return !open && rule.inside ? 0.0 : best;
 }
 
 bool interior_holds(const Shape& shape, const Pose& pose, const Vec3& point) {
@@ -175,7 +179,7 @@ bool interior_holds(const Shape& shape, const Pose& pose, const Vec3& point) {
     return glm::dot(d, d) < disc->radius * disc->radius;
   }
   if (std::holds_alternative<Rectangle>(shape) || std::holds_alternative<Polygon>(shape)) {
-    return polygon_holds(world_outline(shape, pose), Vec2(point));
+    return outline_holds(world_points(shape, pose), Vec2(point));
   }
   const Vec3 d = point - pose.position;
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return glm::dot(d, d) < sphere->radius * sphere->radius;
@@ -185,7 +189,8 @@ bool interior_holds(const Shape& shape, const Pose& pose, const Vec3& point) {
            std::fabs(local.z) < 0.5 * box->size.z;
   }
   if (const auto* prism = std::get_if<Prism>(&shape)) {
-    return local.z > 0.0 && local.z < prism->height && polygon_holds(merged_outline(prism->vertices), Vec2(local));
+    const auto points = [&](auto&& f) { for_each_merged(prism->vertices, f); };
+    return local.z > 0.0 && local.z < prism->height && outline_holds(points, Vec2(local));
   }
   if (const auto* convex = std::get_if<Convex>(&shape)) return hull_holds(convex->vertices, local);
   return false;

@@ -14,6 +14,7 @@
 // r <= v k / n <= s and a <= u k / n <= b: one run of bits in each of a few rows. Cost: four additions a block
 // and plane, and a word or two a row.
 #include <algorithm>
+#include <utility>
 
 #include "gridcull/grid/face_3d.h"
 #include "gridcull/grid/scaled.h"
@@ -117,10 +118,9 @@ void Face3D::list_blocks(const std::vector<std::uint64_t>& bits) {
     if (any != 0)
       for_each_run({both, words_}, [&](int first, int last) { add_run(v, u_base_ + first, u_base_ + last); });
     // Blocks that did not grow by this row are closed: move the open ones to the back.
-    const auto closed = [&](const Block& block) { return block.v_high != v + 1; };
-    open_ = static_cast<std::size_t>(
-        std::stable_partition(blocks_.begin() + static_cast<std::ptrdiff_t>(open_), blocks_.end(), closed) -
-        blocks_.begin());
+    for (std::size_t i = open_; i < blocks_.size(); ++i) {
+      if (blocks_[i].v_high != v + 1) std::swap(blocks_[i], blocks_[open_++]);
+    }
   }
 }
 

@@ -15,7 +15,8 @@ std::array<int, 6> sweep_order(const Vec3& axis) {
   const std::array<std::int64_t, 3> s{seed.x, seed.y, seed.z};
   std::array<int, 6> order{0, 1, 2, 3, 4, 5};
   const auto towards = [&](int face) { return (face % 2 == 0 ? 1 : -1) * s[static_cast<std::size_t>(face / 2)]; };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return towards(a) > towards(b); });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return towards(a) != towards(b) ? towards(a) > towards(b) : a < b; });
   return order;
 }
 

@@ -2,9 +2,11 @@
 // bounding volume is safe (Batagelo and Wu 2002, section 4.1).
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "gridcull/core/view.h"
@@ -23,13 +25,14 @@ class ViewerPaths {
     next_.clear();
     for (const View& view : views) {
       const Cell cell = lattice.cell_of(view.pose.position);
-      const auto last = last_.find(view.viewer);
-      if (last == last_.end() || last->second.rides != view.rides || distance(last->second.cell, cell) > 1) {
-        jumpers_.push_back(cell);
-      }
-      next_[view.viewer] = {cell, view.rides};
+      const Step* last = find(view.viewer);
+      if (last == nullptr || last->rides != view.rides || distance(last->cell, cell) > 1) jumpers_.push_back(cell);
+      next_.push_back({view.viewer, static_cast<std::uint32_t>(next_.size()), view.rides, cell});
       cells_.push_back(cell);
     }
+    std::sort(next_.begin(), next_.end(), [](const Step& a, const Step& b) {
+      return a.viewer != b.viewer ? a.viewer < b.viewer : a.place < b.place;
+    });
     last_.swap(next_);
   }
 
@@ -41,14 +44,22 @@ class ViewerPaths {
 
  private:
   struct Step {
-    Cell cell;
+    ViewerId viewer;
+    std::uint32_t place;  // among the frame's views
     ObjectId rides;
+    Cell cell;
   };
+  /// The viewer's last view of the last frame.
+  const Step* find(ViewerId viewer) const {
+    const auto after = std::upper_bound(last_.begin(), last_.end(), viewer,
+                                        [](ViewerId id, const Step& step) { return id < step.viewer; });
+    return after != last_.begin() && std::prev(after)->viewer == viewer ? &*std::prev(after) : nullptr;
+  }
   static std::int64_t distance(const Cell& a, const Cell& b) {
     return std::max({std::llabs(a.x - b.x), std::llabs(a.y - b.y), std::llabs(a.z - b.z)});
   }
 
-  std::unordered_map<ViewerId, Step> last_, next_;  // looked up only, never iterated
+  std::vector<Step> last_, next_;  // by viewer, then place
   std::vector<Cell> jumpers_, cells_;
 };
 

@@ -1,0 +1,139 @@
+// A steady frame allocates nothing (core/culler.h), for every conservative method on every generated scene. A program
+// of its own, because it replaces the global operator new.
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "gridcull/core/shape.h"
+#include "gridcull/methods/catalog.h"
+#include "gridcull/sim/generate.h"
+#include "gridcull/sim/replay.h"
+
+namespace {
+
+std::atomic<std::uint64_t> allocations{0};
+
+void* counted(std::size_t bytes, std::size_t alignment) {
+  ++allocations;
+  void* p = alignment > 16 ? std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)
+                           : std::malloc(bytes == 0 ? 1 : bytes);
+  if (p == nullptr) throw std::bad_alloc();
+  return p;
+}
+
+}  // namespace
+
+void* operator new(std::size_t bytes) { return counted(bytes, 16); }
+void* operator new[](std::size_t bytes) { return counted(bytes, 16); }
+void* operator new(std::size_t bytes, std::align_val_t to) { return counted(bytes, static_cast<std::size_t>(to)); }
+void* operator new[](std::size_t bytes, std::align_val_t to) { return counted(bytes, static_cast<std::size_t>(to)); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete[](void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+using namespace gridcull;
+
+namespace {
+
+/// The frames of a generator, forwards and backwards again and again: nobody jumps and every buffer soon has seen
+/// its greatest load.
+class ThereAndBack final : public FrameSource {
+ public:
+  explicit ThereAndBack(FrameSource& frames) {
+    for (Frame frame; frames.next(frame);) frames_.push_back(frame);
+  }
+  std::size_t count() const { return frames_.size(); }
+
+  bool next(Frame& frame) override {
+    const std::size_t way = place_ % (2 * frames_.size() - 2);
+    frame = frames_[way < frames_.size() ? way : 2 * frames_.size() - 2 - way];
+    frame.time = static_cast<double>(place_++) / 30.0;
+    return true;
+  }
+
+ private:
+  std::vector<Frame> frames_;
+  std::size_t place_ = 0;
+};
+
+/// Counts what query() allocates.
+class Counted final : public Culler {
+ public:
+  explicit Counted(Culler& culler) : culler_(culler) {}
+
+  const MethodInfo& info() const override { return culler_.info(); }
+  void add(const Object& object) override { culler_.add(object); }
+  void remove(ObjectId object) override { culler_.remove(object); }
+  void move(ObjectId object, const Pose& pose) override { culler_.move(object, pose); }
+  void set_source(PositionSource* source) override { culler_.set_source(source); }
+  void announce_jump(ObjectId object) override { culler_.announce_jump(object); }
+  void query(double time, std::span<const View> views, Answers& out) override {
+    const std::uint64_t before = allocations;
+    culler_.query(time, views, out);
+    in_query += allocations - before;
+  }
+
+  std::uint64_t in_query = 0;
+
+ private:
+  Culler& culler_;
+};
+
+/// Allocations of the last lap of several.
+std::uint64_t last_lap(const MethodEntry& method, std::string_view scene_name, const std::string& tbv) {
+  GenerateOptions options{.count = 100, .frames = 12};
+  if (scene_name == "spheres") options.count = 600;
+  if (scene_name == "city") options.blocks = 6, options.viewers = 2, options.range = 60.0;
+  if (scene_name == "maze") options.count = 12;
+  const auto generator = make_generator(scene_name, options);
+  const Scene& scene = generator->scene();
+  ThereAndBack frames(*generator);
+  const auto culler = method.make({scene.dimension, *scene.bounds, *scene.cell, tbv, 1});
+  Counted counted_culler(*culler);
+  Replay replay(counted_culler, scene, &frames);
+  const std::size_t lap = 2 * frames.count() - 2;
+  for (std::size_t f = 0; f < 8 * lap; ++f) replay.step();
+  counted_culler.in_query = 0;
+  for (std::size_t f = 0; f < lap; ++f) replay.step();
+  return counted_culler.in_query;
+}
+
+}  // namespace
+
+TEST_CASE("the counter counts") {
+  const std::uint64_t before = allocations;
+  std::vector<int> v(100);
+  CHECK(allocations == before + 1);
+}
+
+TEST_CASE("a steady frame allocates nothing") {
+  int cases = 0;
+  for (const std::string_view scene : generated_scenes()) {
+    const int dimension = make_generator(scene, {})->scene().dimension;
+    for (const MethodEntry& method : method_catalog()) {
+      if (method.info.guarantee != Guarantee::conservative) continue;
+      if (dimension == 2 ? !method.info.takes_2d : !method.info.takes_3d) continue;
+      const bool has_volumes = method.options.find("--tbv") != std::string_view::npos;
+      for (const std::string tbv : {"off", "solid", "hollow"}) {
+        if (!has_volumes && tbv != "off") continue;
+        CAPTURE(scene);
+        CAPTURE(method.info.name);
+        CAPTURE(tbv);
+        CHECK(last_lap(method, scene, tbv) == 0);
+        ++cases;
+      }
+    }
+  }
+  CHECK(cases > 0);
+}
