@@ -86,7 +86,7 @@ void GridEngine::State::discretise() {
     if (state.is_static) {
       cover(slot);
     } else {
-      active.push_back(slot);
+      list_active(slot);
     }
   }
   waiting.clear();
@@ -176,6 +176,7 @@ void GridEngine::State::hide_unseen() {
     }
     seen[slot] = 0;
     if (keep) {
+      state.active_place = static_cast<std::uint32_t>(kept);
       active[kept++] = slot;
     } else {
       hiding.push_back(slot);

@@ -67,7 +67,7 @@ void GridEngine::State::remove(Slot slot) {
     if (found != list.rend()) list.erase(std::next(found).base());
   };
   if (place == Place::waiting) drop(waiting);
-  if (place == Place::active && !state.is_static) drop(active);
+  if (place == Place::active && !state.is_static) unlist_active(slot);
   if (state.jumped) drop(jumped);
   if (state.pushed_frame == static_cast<std::uint32_t>(world.frame + 1)) {
     std::erase_if(pushed, [&](const Pushed& p) { return p.slot == slot; });
@@ -129,7 +129,19 @@ void GridEngine::State::activate(Slot slot) {
   set_outside(slot, false);
   state.place = Place::active;
   state.stale = true;
+  list_active(slot);
+}
+
+void GridEngine::State::list_active(Slot slot) {
+  world.objects[slot].active_place = static_cast<std::uint32_t>(active.size());
   active.push_back(slot);
+}
+
+void GridEngine::State::unlist_active(Slot slot) {
+  const std::uint32_t place = world.objects[slot].active_place;
+  active[place] = active.back();
+  world.objects[active[place]].active_place = place;
+  active.pop_back();
 }
 
 void GridEngine::State::hide(Slot slot) {

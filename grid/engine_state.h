@@ -37,6 +37,8 @@ struct GridEngine::State {
   /// Discretises the object in O and I at its present pose.
   void cover(Slot slot);
   void activate(Slot slot);
+  void list_active(Slot slot);
+  void unlist_active(Slot slot);
   void hide(Slot slot);
   void give_volume(Slot slot);
   /// Doubles the object's term if the volume it then gets stays clear of what somebody sees.
