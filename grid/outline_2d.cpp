@@ -22,13 +22,7 @@ double area(std::span<const Vec2> points) {
 
 }  // namespace
 
-Outline2D::Outline2D(const Shape& shape) {
-  if (const auto* disc = std::get_if<Disc>(&shape)) {
-    radius_ = disc->radius;
-    return;
-  }
-  kind_ = is_thin(shape) ? Kind::open : Kind::closed;
-  points_ = world_outline(shape, Pose{});
+Outline2D::Outline2D(const Shape& shape) : closed_(!is_thin(shape)), points_(world_outline(shape, Pose{})) {
   Vec2 low(std::numeric_limits<double>::infinity()), high(-low);
   for (const Vec2& p : points_) low = glm::min(low, p), high = glm::max(high, p);
   middle_ = 0.5 * (low + high);
@@ -36,7 +30,7 @@ Outline2D::Outline2D(const Shape& shape) {
   radius_ = radius_ * rounded_up + 1e-8 * glm::length(middle_);
   if (const auto* box = std::get_if<Rectangle>(&shape)) {
     clearance_ = std::min(box->size.x, box->size.y);
-  } else if (kind_ == Kind::closed) {
+  } else if (closed_) {
     judge();
   } else {
     clearance_ = std::numeric_limits<double>::infinity();

@@ -1,4 +1,5 @@
-// 2D shapes made ready to be seen as silhouettes: which of their edges may hide, and the points in the world.
+// 2D shapes with edges, made ready to be seen as silhouettes: which of their edges may hide, and the points in the
+// world.
 //
 // Claim (usable edges). Truth hides by interiors (core/culler.h), edges hide by being crossed. For a closed outline
 // the two agree along an edge where exactly one of its sides is interior, by the even-odd rule: a ray that crosses it
@@ -17,27 +18,25 @@
 
 namespace gridcull {
 
-/// A shape in local coordinates.
+/// A rectangle, polygon or polyline in local coordinates.
 class Outline2D {
  public:
-  enum class Kind : std::uint8_t { disc, closed, open };
   /// Edge `edge` runs from point `edge` to the next one; used from t0 to t1, 0 <= t0 < t1 <= 1.
   struct Part {
     std::uint32_t edge;
     double t0, t1;
   };
 
-  Outline2D() = default;
-  /// The shape is 2D and valid.
+  /// The shape is 2D, valid and no disc.
   explicit Outline2D(const Shape& shape);
 
-  Kind kind() const { return kind_; }
-  /// Disc: metres. Others: of a disc about middle() that holds all points, rounded up.
+  bool closed() const { return closed_; }
+  /// Metres: of a disc about middle() that holds all points, rounded up.
   double radius() const { return radius_; }
   const Vec2& middle() const { return middle_; }
   std::span<const Vec2> points() const { return points_; }
   /// Number of edges.
-  std::size_t edges() const { return kind_ == Kind::closed ? points_.size() : points_.size() - 1; }
+  std::size_t edges() const { return closed_ ? points_.size() : points_.size() - 1; }
   /// Closed: simple, its edges well apart. All edges are usable then.
   bool clean() const { return clean_; }
   bool counter_clockwise() const { return counter_clockwise_; }
@@ -54,7 +53,7 @@ class Outline2D {
  private:
   void judge();
 
-  Kind kind_ = Kind::disc;
+  bool closed_ = true;
   bool clean_ = true;
   bool counter_clockwise_ = true;
   double radius_ = 0.0;

@@ -12,13 +12,13 @@ constexpr double disc_margin = 1e-10;
 constexpr double range_margin = 0x1p-50;
 
 struct Span {
-  Vec2 from, to;
+  Direction from, to;
 };
 
 /// Directions `centre` turned by -+ the angle whose cosine and sine are as `along` and `across`.
 Span turned_both_ways(const Vec2& centre, double along, double across) {
   const Vec2 ahead = along * centre, left = across * Vec2(-centre.y, centre.x);
-  return {ahead - left, ahead + left};
+  return {direction_of(ahead - left), direction_of(ahead + left)};
 }
 
 }  // namespace
@@ -31,22 +31,20 @@ void Sight2D::begin(const ViewVolume& volume) {
   if (volume.all_round()) return;
   // The sides' normals point inwards, clockwise side first; the rays that bound the field of view:
   const Vec3 &right = volume.begin()[0].normal, &left = volume.begin()[1].normal;
-  const Vec2 first(right.y, -right.x), last(-left.y, left.x);
-  // Closed from `last` counter-clockwise to `first`.
-  int q = quadrant_from(last);
-  const int end = quadrant_to(first);
-  double begin = slope_in(q, last);
-  // Half a turn or more leaves its first quadrant even if it ends there.
-  for (bool more = q != end || volume.convex(); more; more = q != end) {
-    buffer_.close(q, begin, 1.0);
-    begin = -1.0;
-    q = (q + 1) & 3;
+  const Direction first = direction_of({right.y, -right.x}), last = direction_of({-left.y, left.x});
+  const auto close = [&](int q, double from, double to) { buffer_.close(q, from, to); };
+  if (volume.convex() && last.quadrant == first.quadrant) {
+    // All but a part of one quadrant.
+    close(last.quadrant, last.slope, 1.0);
+    for (int k = 1; k < 4; ++k) close((last.quadrant + k) & 3, -1.0, 1.0);
+    close(first.quadrant, -1.0, first.slope);
+  } else {
+    for_each_run(last, first, close);
   }
-  buffer_.close(q, begin, slope_in(end, first));
 }
 
-Sight2D::Disc Sight2D::look_at_disc(const Vec2& centre, double radius) const {
-  const double square = glm::dot(centre, centre), distance = std::sqrt(square);
+Sight2D::Disc Sight2D::look_at_disc(const Vec2& centre, double square, double radius) const {
+  const double distance = std::sqrt(square);
   const double outer = radius + disc_margin * distance + 2.0 * blur_;
   const double gap = distance - outer;
   if (distance - radius > range_ * (1.0 + range_margin) + range_margin * distance) return Disc::hidden;
@@ -76,7 +74,7 @@ void Sight2D::hide_behind_disc(const Vec2& centre, double radius, std::uint32_t 
   const Span span = turned_both_ways(centre, std::sqrt(power), inner);
   const EdgeLine chord{centre / power, tie, 0.0};
   for_each_run(span.from, span.to,
-               [&](int q, double from, double to) { buffer_.insert(q, from, to, chord.low(q), owner); });
+               [&](int q, double from, double to) { (void)buffer_.insert(q, from, to, chord.low(q), owner); });
 }
 
 bool Sight2D::shows_box(const Vec2& low, const Vec2& high) const {
@@ -84,28 +82,30 @@ bool Sight2D::shows_box(const Vec2& low, const Vec2& high) const {
   if (dx == 0.0 && dy == 0.0) return true;
   if (dx * dx + dy * dy > range_ * range_ * (1.0 + range_margin)) return false;
   const auto shows = [&](const Vec2& a, const Vec2& b) {
-    EdgeLine line;
-    const Facing facing = face(a, b, blur_, line);
-    if (facing == Facing::touches) return true;
-    return facing != Facing::radial && open_width(a, b, facing, line, least_width) > least_width;
+    const EdgeTurn turn = turn_of_edge(a, b, blur_);
+    if (turn.facing == Facing::touches) return true;
+    return turn.facing != Facing::radial && open_width(a, b, turn, least_width) > least_width;
   };
   const double x = low.x > 0.0 ? low.x : high.x, y = low.y > 0.0 ? low.y : high.y;
   return (dx > 0.0 && shows({x, low.y}, {x, high.y})) || (dy > 0.0 && shows({low.x, y}, {high.x, y}));
 }
 
-double Sight2D::open_width(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line, double enough) const {
+double Sight2D::open_width(const Direction& from, const Direction& to, const EdgeLine& line, double enough) const {
   double width = 0.0;
-  const bool left = facing == Facing::left;
-  for_each_run(left ? a : b, left ? b : a, [&](int q, double from, double to) {
-    if (width <= enough) width += buffer_.open_width(q, from, to, line.high(q), enough - width);
+  for_each_run(from, to, [&](int q, double begin, double end) {
+    if (width <= enough) width += buffer_.open_width(q, begin, end, line.high(q), enough - width);
   });
   return width;
 }
 
-double Sight2D::open_width_in_range(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line,
-                                    double enough) const {
+double Sight2D::open_width(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const {
+  const bool left = turn.facing == Facing::left;
+  return open_width(direction_of(left ? a : b), direction_of(left ? b : a), turn.line(), enough);
+}
+
+double Sight2D::open_width_in_range(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const {
   const double limit = range_ * range_;
-  if (glm::dot(a, a) <= limit && glm::dot(b, b) <= limit) return open_width(a, b, facing, line, enough);
+  if (glm::dot(a, a) <= limit && glm::dot(b, b) <= limit) return open_width(a, b, turn, enough);
   const Vec2 d = b - a;
   const double square = glm::dot(d, d), middle = -glm::dot(a, d) / square;
   const Vec2 foot = a + middle * d;  // the line's nearest point
@@ -116,13 +116,15 @@ double Sight2D::open_width_in_range(const Vec2& a, const Vec2& b, Facing facing,
   const double blur = 0x1p-48 * (1.0 + std::fabs(middle) + half);
   const double t0 = middle - half - blur, t1 = middle + half + blur;
   if (t0 >= 1.0 || t1 <= 0.0) return 0.0;
-  return open_width(t0 > 0.0 ? a + t0 * d : a, t1 < 1.0 ? a + t1 * d : b, facing, line, enough);
+  return open_width(t0 > 0.0 ? a + t0 * d : a, t1 < 1.0 ? a + t1 * d : b, turn, enough);
 }
 
-void Sight2D::hide_behind_edge(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line, std::uint32_t owner) {
-  const bool left = facing == Facing::left;
-  for_each_run(left ? a : b, left ? b : a,
-               [&](int q, double from, double to) { buffer_.insert(q, from, to, line.low(q), owner); });
+bool Sight2D::hide_behind_edge(const Direction& from, const Direction& to, const EdgeLine& line, std::uint32_t owner) {
+  bool nearest = false;
+  for_each_run(from, to, [&](int q, double begin, double end) {
+    nearest = buffer_.insert(q, begin, end, line.low(q), owner) || nearest;
+  });
+  return nearest;
 }
 
 }  // namespace gridcull

@@ -29,18 +29,31 @@ class Sight2D {
   /// Where a disc is: nothing of it is visible (beyond the range, or behind the buffer), the viewer is in it or within
   /// 1e-10 of its border, or else.
   enum class Disc : std::uint8_t { hidden, around, open };
-  Disc look_at_disc(const Vec2& centre, double radius) const;
+  /// `square`: of the centre's distance.
+  Disc look_at_disc(const Vec2& centre, double square, double radius) const;
   /// Enters the chord of a disc that does not hold the viewer.
   void hide_behind_disc(const Vec2& centre, double radius, std::uint32_t owner);
 
   /// Whether something in the box may be visible. Closed box; false only if all of it is hidden.
   bool shows_box(const Vec2& low, const Vec2& high) const;
 
-  /// Width in which an edge is not behind the buffer; `facing` left or right. Stops adding beyond `enough`.
-  double open_width(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line, double enough) const;
-  /// The same for its part within the range.
-  double open_width_in_range(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line, double enough) const;
-  void hide_behind_edge(const Vec2& a, const Vec2& b, Facing facing, const EdgeLine& line, std::uint32_t owner);
+  /// Width in which an edge between two directions is not behind the buffer. Stops adding beyond `enough`.
+  double open_width(const Direction& from, const Direction& to, const EdgeLine& line, double enough) const;
+  /// The same for an edge from a to b (facing left or right), or its part within the range.
+  double open_width(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const;
+  double open_width_in_range(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const;
+  /// Enters an edge. Whether it is the nearest anywhere.
+  bool hide_behind_edge(const Direction& from, const Direction& to, const EdgeLine& line, std::uint32_t owner);
+
+  /// The end p of an edge, where its object ends for the viewer, drawn back towards the edge, which lies
+  /// counter-clockwise (`way` 1) or clockwise (-1) of it. World points are off by some ulp, so objects that touch in a
+  /// corner may overlap by that: what shows between them is hidden by the width of a rounding only. Abutting
+  /// objects do not part: where one ends, the other goes on behind it.
+  Vec2 drawn_back(const Vec2& p, double way) const {
+    // Turned by at least a tie of the coordinates: |x| + |y| <= sqrt(2) |p|.
+    const double turn = way * 1.5 * blur_ / (std::fabs(p.x) + std::fabs(p.y));
+    return {p.x - turn * p.y, p.y + turn * p.x};
+  }
 
   /// Metres: places of the world this close count as one, their distance aside.
   double blur() const { return blur_; }

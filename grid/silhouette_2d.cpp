@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gridcull/core/predicates.h"
 
 namespace gridcull {
 
 Placed2D placed(const Outline2D& outline, const Pose& pose, const Vec2* points) {
-  if (outline.kind() == Outline2D::Kind::disc) return {&outline, Vec2(pose.position), outline.radius(), nullptr};
   const Vec2& m = outline.middle();
   const Vec3 centre = to_world(pose, rotation_of(pose.orientation), {m.x, m.y, 0.0});
   // The centre and the points are off by a few ulp of the coordinates.
@@ -23,66 +23,88 @@ void Silhouettes2D::begin(const ViewVolume& volume) {
 }
 
 bool Silhouettes2D::shows_disc(const Vec2& centre, double radius) const {
-  return sight_.look_at_disc(centre - sight_.eye(), radius) != Sight2D::Disc::hidden;
+  const Vec2 c = centre - sight_.eye();
+  return sight_.look_at_disc(c, glm::dot(c, c), radius) != Sight2D::Disc::hidden;
 }
 
 bool Silhouettes2D::enter(Slot slot, const Placed2D& object, bool occluder) {
   const Vec2 centre = object.centre - sight_.eye();
-  const Sight2D::Disc where = sight_.look_at_disc(centre, object.radius);
+  const double square = glm::dot(centre, centre);
+  const Sight2D::Disc where = sight_.look_at_disc(centre, square, object.radius);
   if (where == Sight2D::Disc::hidden) return false;
-  Candidate c{object, slot};
-  const double far = glm::length(centre) + object.radius;
-  c.straddles = far * (1.0 + 0x1p-48) > sight_.range();
+  const double inner = sight_.range() * (1.0 - 0x1p-48) - object.radius;
+  Candidate c{object, slot, false, !(inner > 0.0 && square < inner * inner)};
   if (where == Sight2D::Disc::around && holds_viewer(object)) {
     c.seen = true;
-    candidates_.push_back(c);
-    return true;
-  }
-  if (object.outline->kind() == Outline2D::Kind::disc) {
+  } else if (object.outline != nullptr) {
+    if (!enter_outline(c, occluder)) return false;
+  } else {
     c.seen = where == Sight2D::Disc::around && volume_->may_touch_ball({object.centre, 0.0}, object.radius);
     if (occluder) sight_.hide_behind_disc(centre, object.radius, static_cast<std::uint32_t>(candidates_.size()));
-  } else if (!enter_outline(c, occluder)) {
-    return false;
   }
   candidates_.push_back(c);
   return true;
 }
 
+// An outline that is the nearest nowhere may still be open: where it coincides with what is.
 bool Silhouettes2D::enter_outline(Candidate& c, bool occluder) {
   const Outline2D& outline = *c.object.outline;
-  const auto owner = static_cast<std::uint32_t>(candidates_.size());
   const bool clear = face_all(c.object);
   c.seen = !clear;
   const Facing back = clear ? back_of(outline) : Facing::radial;
-  bool open = c.seen;
-  for (std::size_t i = 0; i < edges_.size() && !open; ++i) {
-    const Edge& e = edges_[i];
-    if (e.facing > Facing::right || e.facing == back) continue;
-    open = sight_.open_width(points_[i], end_of(i), e.facing, e.line, 0.0) > 0.0;
+  if (occluder && outline.solid(magnitude(c.object))) {
+    const auto owner = static_cast<std::uint32_t>(candidates_.size());
+    if (outline.clean() ? hide_behind_outline(back, owner) : hide_behind_parts(outline, owner)) return true;
   }
-  if (!open) return false;
-  if (!occluder || !outline.solid(magnitude(c.object))) return true;
-  if (!outline.clean()) {
-    hide_behind_parts(outline, owner);
-    return true;
+  return c.seen || outline_open(back, false);
+}
+
+bool Silhouettes2D::free_at(std::size_t point) const {
+  if (facing_.size() < points_.size()) return false;  // a chain: rooms are built of them
+  return facing_[point] != facing_[point == 0 ? facing_.size() - 1 : point - 1];
+}
+
+// Neighbouring edges share the direction of their common point, unless the outline turns back there.
+bool Silhouettes2D::hide_behind_outline(Facing back, std::uint32_t owner) {
+  bool nearest = false, known = false;
+  Direction end{};  // of the edge before, where `known`
+  for (std::size_t i = 0; i < facing_.size(); ++i) {
+    if (skipped(facing_[i], back)) {
+      known = false;
+      continue;
+    }
+    const double way = facing_[i] == Facing::left ? 1.0 : -1.0;
+    const bool begin_free = free_at(i), end_free = free_at(after(i));
+    const Vec2 a = begin_free ? sight_.drawn_back(points_[i], way) : points_[i];
+    const Vec2 b = end_free ? sight_.drawn_back(points_[after(i)], -way) : points_[after(i)];
+    const Direction begin = known && !begin_free ? end : direction_of(a);
+    end = direction_of(b);
+    known = !end_free;
+    if ((begin_free || end_free) && !(way * cross2(a, b) > 0.0)) continue;  // narrower than that: turned round
+    const EdgeLine line = turn_of(i).line();
+    nearest = sight_.hide_behind_edge(way > 0.0 ? begin : end, way > 0.0 ? end : begin, line, owner) || nearest;
   }
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    const Edge& e = edges_[i];
-    if (e.facing > Facing::right || e.facing == back) continue;
-    sight_.hide_behind_edge(points_[i], end_of(i), e.facing, e.line, owner);
+  return nearest;
+}
+
+bool Silhouettes2D::hide_behind_parts(const Outline2D& outline, std::uint32_t owner) {
+  bool nearest = false;
+  for (const Outline2D::Part& part : outline.parts()) {
+    if (!skipped(facing_[part.edge], Facing::radial)) nearest = hide_behind_part(part, owner) || nearest;
   }
-  return true;
+  return nearest;
 }
 
 // A part's ends lie on its edge but for roundings of the edge's points, which parts keep far from everything else.
-void Silhouettes2D::hide_behind_parts(const Outline2D& outline, std::uint32_t owner) {
-  for (const Outline2D::Part& part : outline.parts()) {
-    const Edge& e = edges_[part.edge];
-    if (e.facing > Facing::right) continue;
-    const Vec2 &a = points_[part.edge], &b = end_of(part.edge);
-    const Vec2 from = part.t0 > 0.0 ? a + part.t0 * (b - a) : a, to = part.t1 < 1.0 ? a + part.t1 * (b - a) : b;
-    sight_.hide_behind_edge(from, to, e.facing, e.line, owner);
-  }
+bool Silhouettes2D::hide_behind_part(const Outline2D::Part& part, std::uint32_t owner) {
+  const Vec2 &a = points_[part.edge], &b = points_[after(part.edge)];
+  const double way = facing_[part.edge] == Facing::left ? 1.0 : -1.0;
+  Vec2 p = part.t0 > 0.0 ? a + part.t0 * (b - a) : a, q = part.t1 < 1.0 ? a + part.t1 * (b - a) : b;
+  if (part.t0 == 0.0 && free_at(part.edge)) p = sight_.drawn_back(p, way);
+  if (part.t1 == 1.0 && free_at(after(part.edge))) q = sight_.drawn_back(q, -way);
+  if (!(way * cross2(p, q) > 0.0)) return false;  // narrower than that: turned round
+  if (way < 0.0) std::swap(p, q);
+  return sight_.hide_behind_edge(direction_of(p), direction_of(q), turn_of(part.edge).line(), owner);
 }
 
 void Silhouettes2D::finish(std::vector<Slot>& visible) {
@@ -96,34 +118,36 @@ void Silhouettes2D::finish(std::vector<Slot>& visible) {
 }
 
 bool Silhouettes2D::test(const Candidate& c) {
-  if (c.object.outline->kind() != Outline2D::Kind::disc) return test_outline(c);
-  return sight_.look_at_disc(c.object.centre - sight_.eye(), c.object.radius) == Sight2D::Disc::open;
+  if (c.object.outline == nullptr) {
+    const Vec2 centre = c.object.centre - sight_.eye();
+    return sight_.look_at_disc(centre, glm::dot(centre, centre), c.object.radius) == Sight2D::Disc::open;
+  }
+  const bool clear = face_all(c.object);
+  return outline_open(clear ? back_of(*c.object.outline) : Facing::radial, c.straddles);
 }
 
-bool Silhouettes2D::test_outline(const Candidate& c) {
-  const bool clear = face_all(c.object);
-  const Facing back = clear ? back_of(*c.object.outline) : Facing::radial;
+bool Silhouettes2D::outline_open(Facing back, bool straddles) const {
   double width = 0.0;
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    const Edge& e = edges_[i];
-    if (e.facing > Facing::right || e.facing == back) continue;
+  for (std::size_t i = 0; i < facing_.size(); ++i) {
+    if (skipped(facing_[i], back)) continue;
+    const Vec2 &a = points_[i], &b = points_[after(i)];
+    const EdgeTurn e = turn_of(i);
     const double enough = least_width - width;
-    width += c.straddles ? sight_.open_width_in_range(points_[i], end_of(i), e.facing, e.line, enough)
-                         : sight_.open_width(points_[i], end_of(i), e.facing, e.line, enough);
+    width += straddles ? sight_.open_width_in_range(a, b, e, enough) : sight_.open_width(a, b, e, enough);
     if (width > least_width) return true;
   }
   return false;
 }
 
 bool Silhouettes2D::face_all(const Placed2D& object) {
-  const std::size_t count = object.outline->points().size();
+  const std::size_t count = object.outline->points().size(), edges = object.outline->edges();
   points_.resize(count);
+  facing_.resize(edges);
   for (std::size_t i = 0; i < count; ++i) points_[i] = object.points[i] - sight_.eye();
-  edges_.resize(object.outline->edges());
   bool clear = true;
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    edges_[i].facing = face(points_[i], end_of(i), sight_.blur(), edges_[i].line);
-    clear = clear && edges_[i].facing != Facing::touches;
+  for (std::size_t i = 0; i < edges; ++i) {
+    facing_[i] = facing_of_edge(points_[i], points_[after(i)], sight_.blur());
+    clear = clear && facing_[i] != Facing::touches;
   }
   return clear;
 }
@@ -131,14 +155,11 @@ bool Silhouettes2D::face_all(const Placed2D& object) {
 /// The open interior, by the even-odd rule on the world points, with exact signs.
 bool Silhouettes2D::holds_viewer(const Placed2D& object) const {
   const Vec2& eye = sight_.eye();
-  switch (object.outline->kind()) {
-    case Outline2D::Kind::disc: {
-      const Vec2 d = eye - object.centre;
-      return glm::dot(d, d) < object.radius * object.radius;
-    }
-    case Outline2D::Kind::open: return false;
-    case Outline2D::Kind::closed: break;
+  if (object.outline == nullptr) {
+    const Vec2 d = eye - object.centre;
+    return glm::dot(d, d) < object.radius * object.radius;
   }
+  if (!object.outline->closed()) return false;
   const std::size_t count = object.outline->points().size();
   bool inside = false;
   for (std::size_t i = 0; i < count; ++i) {
@@ -157,7 +178,7 @@ double Silhouettes2D::magnitude(const Placed2D& object) const {
 
 std::uint64_t Silhouettes2D::bytes() const {
   return candidates_.capacity() * sizeof(Candidate) + points_.capacity() * sizeof(Vec2) +
-         edges_.capacity() * sizeof(Edge) + sight_.buffer().bytes();
+         facing_.capacity() * sizeof(Facing) + sight_.buffer().bytes();
 }
 
 }  // namespace gridcull

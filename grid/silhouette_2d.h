@@ -20,13 +20,13 @@ namespace gridcull {
 
 /// An object where it stands. Outline and points must stay until finish().
 struct Placed2D {
-  const Outline2D* outline = nullptr;
-  Vec2 centre{0.0};              ///< of a disc that holds it (disc: the shape itself)
-  double radius = 0.0;           ///< metres
-  const Vec2* points = nullptr;  ///< world points; not for discs
+  const Outline2D* outline = nullptr;  ///< nullptr: a disc
+  Vec2 centre{0.0};                    ///< of a disc that holds it (disc: the shape itself)
+  double radius = 0.0;                 ///< metres
+  const Vec2* points = nullptr;        ///< world points; not for discs
 };
 
-/// World centre of the outline's bounding disc at a pose; `points` as placed by the outline.
+/// An outline with its bounding disc; `points` as it places them at this pose.
 Placed2D placed(const Outline2D& outline, const Pose& pose, const Vec2* points);
 
 class Silhouettes2D {
@@ -51,10 +51,6 @@ class Silhouettes2D {
   std::uint64_t bytes() const;
 
  private:
-  struct Edge {
-    EdgeLine line;
-    Facing facing;
-  };
   struct Candidate {
     Placed2D object;
     Slot slot;
@@ -63,25 +59,32 @@ class Silhouettes2D {
   };
 
   bool enter_outline(Candidate& c, bool occluder);
-  void hide_behind_parts(const Outline2D& outline, std::uint32_t owner);
+  bool hide_behind_outline(Facing back, std::uint32_t owner);
+  bool hide_behind_parts(const Outline2D& outline, std::uint32_t owner);
+  bool hide_behind_part(const Outline2D::Part& part, std::uint32_t owner);
   bool test(const Candidate& c);
-  bool test_outline(const Candidate& c);
-  /// Fills points_ and edges_. False if the viewer stands on an edge.
+  bool outline_open(Facing back, bool straddles) const;
+  /// Fills points_ and facing_. False if the viewer stands on an edge.
   bool face_all(const Placed2D& object);
   bool holds_viewer(const Placed2D& object) const;
   /// Which edges need no look when the viewer is outside and not on the outline.
   static Facing back_of(const Outline2D& outline) {
-    if (!outline.clean() || outline.kind() != Outline2D::Kind::closed) return Facing::radial;
+    if (!outline.clean() || !outline.closed()) return Facing::radial;
     return outline.counter_clockwise() ? Facing::left : Facing::right;
   }
-  const Vec2& end_of(std::size_t edge) const { return points_[edge + 1 < points_.size() ? edge + 1 : 0]; }
+  EdgeTurn turn_of(std::size_t edge) const { return turn_of_edge(points_[edge], points_[after(edge)], sight_.blur()); }
+  static bool skipped(Facing facing, Facing back) { return facing > Facing::right || facing == back; }
+  std::size_t after(std::size_t point) const { return point + 1 < points_.size() ? point + 1 : 0; }
+  /// Whether an outline turns back at a point, which may be its end; edge `point` begins there.
+  bool free_at(std::size_t point) const;
   double magnitude(const Placed2D& object) const;
 
   const ViewVolume* volume_ = nullptr;
   Sight2D sight_;
   std::vector<Candidate> candidates_;
-  std::vector<Vec2> points_;  // of the object in hand, relative to the viewer
-  std::vector<Edge> edges_;
+  // Of the object in hand, relative to the viewer:
+  std::vector<Vec2> points_;
+  std::vector<Facing> facing_;  // of the edges
 };
 
 }  // namespace gridcull

@@ -1,6 +1,7 @@
 #include "gridcull/grid/slope_buffer.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 namespace gridcull {
@@ -58,58 +59,71 @@ std::size_t SlopeBuffer::find(const std::vector<Piece>& list, double slope) {
   return first;
 }
 
-// Lines meet in at most one point, so one edge crosses a piece at most once.
-void SlopeBuffer::insert(int quadrant, double from, double to, const SlopeLine& low, std::uint32_t owner) {
-  if (!(from < to)) return;
+namespace {
+
+/// Writes pieces one after the other. Those without width vanish, neighbours from one edge are one piece.
+class Writer {
+ public:
+  explicit Writer(SlopeBuffer::Piece* begin) : begin_(begin), end_(begin) {}
+  void add(double from, const SlopeBuffer::Piece& like) {
+    if (end_ != begin_ && end_[-1].from >= from) --end_;
+    if (end_ != begin_) {
+      const SlopeBuffer::Piece& last = end_[-1];
+      if (last.owner == like.owner && last.line.a == like.line.a && last.line.b == like.line.b) return;
+    }
+    *end_ = like;
+    (end_++)->from = from;
+  }
+  std::size_t count() const { return static_cast<std::size_t>(end_ - begin_); }
+
+ private:
+  SlopeBuffer::Piece *begin_, *end_;
+};
+
+}  // namespace
+
+// Lines meet in at most one point, so an edge crosses a piece at most once: a piece becomes at most two, and the
+// first and last one more.
+bool SlopeBuffer::insert(int quadrant, double from, double to, const SlopeLine& low, std::uint32_t owner) {
+  if (!(from < to)) return false;
   auto& list = pieces_[static_cast<std::size_t>(quadrant)];
   std::size_t first = find(list, from);
   for (;; ++first) {  // pieces that the edge lies behind
     const Piece& p = list[first];
     const double end = std::min(to, list[first + 1].from), begin = std::max(from, p.from);
     if (low.at(begin) > p.line.at(begin) || low.at(end) > p.line.at(end)) break;
-    if (list[first + 1].from >= to) return;
+    if (list[first + 1].from >= to) return false;
   }
   const double steep = low.a == infinity ? 0.0 : std::sqrt(low.a * low.a + low.b * low.b);
   const Piece edge{from, low, steep, owner};
-  fresh_.clear();
-  if (list[first].from < from) emit(list[first].from, list[first]);
+  if (fresh_.size() < 2 * list.size() + 4) fresh_.resize(4 * list.size() + 4);
+  Writer out(fresh_.data());
+  if (list[first].from < from) out.add(list[first].from, list[first]);
   std::size_t i = first;
   for (;; ++i) {
     const Piece& p = list[i];
     const double begin = std::max(from, p.from), next = list[i + 1].from, end = std::min(to, next);
     const bool above_begin = low.at(begin) > p.line.at(begin), above_end = low.at(end) > p.line.at(end);
-    emit(begin, above_begin ? edge : p);
+    out.add(begin, above_begin ? edge : p);
     if (above_begin != above_end) {
       const double s = crossing(low, p.line, begin, end);
-      if (s < end) emit(s, above_begin ? p : edge);
+      if (s < end) out.add(s, above_begin ? p : edge);
     }
     if (next < to) continue;
-    if (to < next) emit(to, p);
+    if (to < next) out.add(to, p);
     break;
   }
-  splice(list, first, i + 1);
+  splice(list, first, i + 1, out.count());
+  return true;
 }
 
-/// Pieces without width vanish, neighbours from one edge are one piece.
-void SlopeBuffer::emit(double from, const Piece& like) {
-  if (!fresh_.empty() && fresh_.back().from >= from) fresh_.pop_back();
-  if (!fresh_.empty()) {
-    const Piece& last = fresh_.back();
-    if (last.owner == like.owner && last.line.a == like.line.a && last.line.b == like.line.b) return;
-  }
-  fresh_.push_back({from, like.line, like.steep, like.owner});
-}
-
-void SlopeBuffer::splice(std::vector<Piece>& list, std::size_t first, std::size_t end) {
-  const std::size_t old = end - first, now = fresh_.size();
-  const auto at = list.begin() + static_cast<std::ptrdiff_t>(first);
-  if (now > old) {
-    std::copy_n(fresh_.begin(), old, at);
-    list.insert(at + static_cast<std::ptrdiff_t>(old), fresh_.begin() + static_cast<std::ptrdiff_t>(old), fresh_.end());
-  } else {
-    std::copy(fresh_.begin(), fresh_.end(), at);
-    list.erase(at + static_cast<std::ptrdiff_t>(now), at + static_cast<std::ptrdiff_t>(old));
-  }
+/// The first `fresh` of fresh_ take the place of list[first .. end).
+void SlopeBuffer::splice(std::vector<Piece>& list, std::size_t first, std::size_t end, std::size_t fresh) {
+  const std::size_t after = first + fresh, rest = list.size() - end;
+  if (after > end) list.resize(after + rest);
+  if (after != end) std::memmove(list.data() + after, list.data() + end, rest * sizeof(Piece));
+  if (after < end) list.resize(after + rest);
+  std::memcpy(list.data() + first, fresh_.data(), fresh * sizeof(Piece));
 }
 
 void SlopeBuffer::close(int quadrant, double from, double to) { insert(quadrant, from, to, {infinity, 0.0}, nobody); }

@@ -41,8 +41,8 @@ class SlopeBuffer {
   void reset();
   /// Nothing can be seen in these slopes.
   void close(int quadrant, double from, double to);
-  /// Enters an edge.
-  void insert(int quadrant, double from, double to, const SlopeLine& low, std::uint32_t owner);
+  /// Enters an edge. Whether it is the nearest anywhere.
+  bool insert(int quadrant, double from, double to, const SlopeLine& low, std::uint32_t owner);
 
   /// Width of the slopes in which the line is not behind the buffer; stops adding beyond `enough`.
   double open_width(int quadrant, double from, double to, const SlopeLine& high, double enough) const;
@@ -64,8 +64,7 @@ class SlopeBuffer {
 
  private:
   static std::size_t find(const std::vector<Piece>& list, double slope);
-  void emit(double from, const Piece& like);
-  void splice(std::vector<Piece>& list, std::size_t first, std::size_t end);
+  void splice(std::vector<Piece>& list, std::size_t first, std::size_t end, std::size_t fresh);
 
   /// The last piece of each list begins at 1 and stands for the end.
   std::array<std::vector<Piece>, 4> pieces_{};

@@ -38,18 +38,15 @@ struct SlopeLine {
   double at(double s) const { return a + b * s; }
 };
 
-/// The quadrant of a direction that begins a counter-clockwise range: -45 <= angle < 45 degrees is 0.
-inline int quadrant_from(const Vec2& p) {
-  if (p.y < p.x) return p.y >= -p.x ? 0 : 3;
-  return p.y > -p.x ? 1 : 2;
+/// A direction by its quadrant and slope, -1 <= slope < 1: diagonals belong to the quadrant after them.
+struct Direction {
+  int quadrant;
+  double slope;
+};
+inline Direction direction_of(const Vec2& p) {
+  if (p.y < p.x) return p.y >= -p.x ? Direction{0, p.y / p.x} : Direction{3, -p.x / p.y};
+  return p.y > -p.x ? Direction{1, -p.x / p.y} : Direction{2, p.y / p.x};
 }
-/// The quadrant of a direction that ends one: -45 < angle <= 45 degrees is 0.
-inline int quadrant_to(const Vec2& p) {
-  if (p.y <= p.x) return p.y > -p.x ? 0 : 3;
-  return p.y >= -p.x ? 1 : 2;
-}
-/// Slope of a point that lies in the quadrant.
-inline double slope_in(int quadrant, const Vec2& p) { return (quadrant & 1) == 0 ? p.y / p.x : -p.x / p.y; }
 /// Turns the quadrant's axis to +x. Exact. Turns the line n . p = 1 (given as n) into w = n.x + n.y s.
 inline Vec2 turned(int quadrant, const Vec2& p) {
   switch (quadrant) {
@@ -60,17 +57,17 @@ inline Vec2 turned(int quadrant, const Vec2& p) {
   }
 }
 
-/// Calls f(quadrant, from, to) for the slopes from direction `from` counter-clockwise to `to`, less than half a turn.
+/// Calls f(quadrant, from, to) for the slopes from `from` counter-clockwise to `to`, less than half a turn.
 template <class F>
-void for_each_run(const Vec2& from, const Vec2& to, F&& f) {
-  int q = quadrant_from(from);
-  const int last = quadrant_to(to);
-  double begin = slope_in(q, from);
-  for (; q != last; q = (q + 1) & 3) {
+void for_each_run(const Direction& from, Direction to, F&& f) {
+  if (to.slope == -1.0) to = {(to.quadrant + 3) & 3, 1.0};  // the same diagonal, from before
+  int q = from.quadrant;
+  double begin = from.slope;
+  for (; q != to.quadrant; q = (q + 1) & 3) {
     f(q, begin, 1.0);
     begin = -1.0;
   }
-  f(q, begin, slope_in(q, to));
+  f(q, begin, to.slope);
 }
 
 /// How an edge from a to b lies about the viewer.
@@ -105,30 +102,61 @@ struct EdgeLine {
   static constexpr double greatest_margin = 0x1p-6;
 };
 
-/// An edge that the viewer, or its line, comes too close to: the margin is no use. Beyond the nearer end, w is
-/// at most sqrt(2) / distance.
-inline Facing face_askew(const Vec2& a, const Vec2& b, double blur, double c, double bulk, EdgeLine& line) {
-  const double nearest = std::sqrt(std::fmin(glm::dot(a, a), glm::dot(b, b)));
-  if (glm::dot(a, b) <= 0.0 || !(nearest > 128.0 * blur)) return Facing::touches;
-  if (!(std::fabs(c) > 0x1p-40 * bulk)) return Facing::radial;
-  line = {Vec2(0.0), 0.0, 1.5 / nearest};
-  return c > 0.0 ? Facing::left : Facing::right;
+/// An edge about the viewer, before its line is worked out.
+struct EdgeTurn {
+  Vec2 d{0.0};         ///< from a to b
+  double c = 0.0;      ///< a x d
+  double error = 0.0;  ///< of the line, times c
+  double peak = 0.0;   ///< as in EdgeLine
+  Facing facing = Facing::radial;
+
+  EdgeLine line() const {
+    if (peak > 0.0) return {Vec2(0.0), 0.0, peak};
+    const double inverse = 1.0 / c;
+    return {{d.y * inverse, -d.x * inverse}, tie + error * std::fabs(inverse), 0.0};
+  }
+};
+
+/// An edge that the viewer, or its line, comes too close to: the margin is no use. w is greatest at the nearer
+/// end, at most sqrt(2) / distance.
+inline void turn_askew(const Vec2& a, const Vec2& b, double nearest, double blur, bool sure, EdgeTurn& turn) {
+  if (glm::dot(a, b) <= 0.0 || !(nearest > 128.0 * blur)) {
+    turn.facing = Facing::touches;
+  } else if (!sure) {
+    turn.facing = Facing::radial;
+  } else {
+    turn.peak = 1.5 / nearest;
+  }
 }
 
-/// Sets `line` for left and right. `blur` is tie times the magnitude of the viewer's coordinates. The sign is sure: |c|
-/// is at least 2^-40 bulk, far above c's error of 4 u bulk. c is taken from the nearer end, where bulk is least; so
-/// what counts as radial is narrower than 2^-38.
-inline Facing face(const Vec2& a, const Vec2& b, double blur, EdgeLine& line) {
-  const Vec2 d = b - a;
-  const Vec2& near = glm::dot(a, a) < glm::dot(b, b) ? a : b;
-  const double p = near.x * d.y, q = near.y * d.x;
-  const double c = p - q, bulk = std::fabs(p) + std::fabs(q), inverse = 1.0 / c;
-  const double margin = tie + std::fabs(inverse) * (0x1p-51 * bulk + blur * (std::fabs(d.x) + std::fabs(d.y)));
-  if (!(margin < EdgeLine::greatest_margin && std::fabs(c) > 0x1p-40 * bulk)) {
-    return face_askew(a, b, blur, c, bulk, line);
+/// `blur`: tie times the magnitude of the viewer's coordinates. The sign of c is sure
+/// where |c| is at least 2^-40 bulk, far above its error of 4 u bulk. c is taken from the nearer end, where bulk is
+/// least; so what counts as radial is narrower than 2^-38.
+inline EdgeTurn turn_of_edge(const Vec2& a, const Vec2& b, double blur) {
+  EdgeTurn turn;
+  turn.d = b - a;
+  const double a2 = glm::dot(a, a), b2 = glm::dot(b, b);
+  const Vec2& near = a2 < b2 ? a : b;
+  const double p = near.x * turn.d.y, q = near.y * turn.d.x;
+  const double bulk = std::fabs(p) + std::fabs(q);
+  turn.c = p - q;
+  turn.error = 0x1p-51 * bulk + blur * (std::fabs(turn.d.x) + std::fabs(turn.d.y));
+  turn.facing = turn.c > 0.0 ? Facing::left : Facing::right;
+  const double size = std::fabs(turn.c);
+  const bool sure = size > 0x1p-40 * bulk;
+  if (!(sure && turn.error < (EdgeLine::greatest_margin - tie) * size)) {
+    turn_askew(a, b, std::sqrt(std::fmin(a2, b2)), blur, sure, turn);
   }
-  line = {{d.y * inverse, -d.x * inverse}, margin, 0.0};
-  return c > 0.0 ? Facing::left : Facing::right;
+  return turn;
+}
+/// Its facing alone. Where a x b is far above its rounding and the line far from the viewer, its sign is enough.
+inline Facing facing_of_edge(const Vec2& a, const Vec2& b, double blur) {
+  const double p = a.x * b.y, q = a.y * b.x, c = p - q, size = std::fabs(c);
+  if (size > 0x1p-30 * (std::fabs(p) + std::fabs(q)) &&
+      size > 256.0 * blur * (std::fabs(b.x - a.x) + std::fabs(b.y - a.y))) {
+    return c > 0.0 ? Facing::left : Facing::right;
+  }
+  return turn_of_edge(a, b, blur).facing;
 }
 
 }  // namespace gridcull
