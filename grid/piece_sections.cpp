@@ -87,15 +87,17 @@ void add_circle(const FrontFace& face, double k, double margin, Points& out) {
   const Vec3 foot = -face.height * face.normal;
   const Vec3 side = face.corner[1] - face.corner[0];
   const Vec3 u = (radius / glm::length(side)) * side, v = glm::cross(face.normal, u);
+  // How far inside each edge: at the foot, and what u and v add.
+  std::array<Vec3, ConvexPiece::max_vertices> inside;
+  for (std::size_t i = 0; i < face.count; ++i) {
+    const Vec3& a = face.corner[i];
+    const Vec3 inward = glm::cross(face.normal, face.corner[i + 1 == face.count ? 0 : i + 1] - a);
+    inside[i] = {glm::dot(inward, foot - a) - margin * glm::length(inward), glm::dot(inward, u), glm::dot(inward, v)};
+  }
   for (const auto& [c, s] : circle) {
-    const Vec3 p = foot + c * u + s * v;
-    bool inside = true;
-    for (std::size_t i = 0; i < face.count && inside; ++i) {
-      const Vec3& a = face.corner[i];
-      const Vec3 e = face.corner[i + 1 == face.count ? 0 : i + 1] - a;
-      inside = glm::dot(glm::cross(e, p - a), face.normal) > margin * glm::length(e);
-    }
-    if (inside) out.add(p);
+    bool in = true;
+    for (std::size_t i = 0; i < face.count; ++i) in = in && inside[i].x + c * inside[i].y + s * inside[i].z > 0.0;
+    if (in) out.add(foot + c * u + s * v);
   }
 }
 
@@ -173,24 +175,27 @@ int wanted_keys(double nearest, double farthest, std::array<double, 3>& keys) {
 }  // namespace
 
 int sections(const PlacedPiece& placed, std::span<Section> out) {
-  Outline whole;
-  if (out.empty() || !silhouette(placed, whole)) return 0;
+  if (out.empty()) return 0;
+  Outline& whole = out[0].outline;
+  if (!silhouette(placed, whole)) return 0;
+  out[0].key = whole.farthest;
+  const double farthest = whole.farthest, least = farthest - 2.0 * placed.piece.radius;
+  if (out.size() == 1 || farthest <= paying[0] * least) return 1;
+  if (!(2.0 * sight_blur(placed.piece, placed.frame) <= placed.piece.slack)) return 1;
+  VertexLoop loop;
+  find_loop(placed.piece, placed.frame.apex, loop);
+  const Sections at(placed, loop);
+  std::array<double, 3> keys;
+  const int wanted = std::min(wanted_keys(at.nearest(), farthest, keys), static_cast<int>(out.size()) - 1);
   int count = 0;
-  const double least = whole.farthest - 2.0 * placed.piece.radius;
-  const bool pays = out.size() > 1 && whole.farthest > paying[0] * least &&
-                    2.0 * sight_blur(placed.piece, placed.frame) <= placed.piece.slack;
-  if (pays) {
-    VertexLoop loop;
-    find_loop(placed.piece, placed.frame.apex, loop);
-    const Sections at(placed, loop);
-    std::array<double, 3> keys;
-    const int wanted = std::min(wanted_keys(at.nearest(), whole.farthest, keys), static_cast<int>(out.size()) - 1);
-    for (int i = 0; i < wanted; ++i) {
-      Section& section = out[static_cast<std::size_t>(count)];
-      if (at.at(keys[static_cast<std::size_t>(i)], section) && section.key < whole.farthest) ++count;
-    }
+  for (int i = 0; i < wanted; ++i) {
+    Section& section = out[static_cast<std::size_t>(count)];
+    if (at.at(keys[static_cast<std::size_t>(i)], section) && section.key < farthest) ++count;
   }
-  out[static_cast<std::size_t>(count++)] = {whole, whole.farthest};
+  // Again rather than copied: an outline has room for 64 rays.
+  Section& last = out[static_cast<std::size_t>(count++)];
+  silhouette(placed, last.outline);
+  last.key = farthest;
   return count;
 }
 
