@@ -45,7 +45,8 @@ struct Direction {
 };
 inline Direction direction_of(const Vec2& p) {
   if (p.y < p.x) return p.y >= -p.x ? Direction{0, p.y / p.x} : Direction{3, -p.x / p.y};
-  return p.y > -p.x ? Direction{1, -p.x / p.y} : Direction{2, p.y / p.x};
+  if (p.y > -p.x) return {1, -p.x / p.y};
+  return p.y > p.x ? Direction{2, p.y / p.x} : Direction{3, -1.0};
 }
 /// Turns the quadrant's axis to +x. Exact. Turns the line n . p = 1 (given as n) into w = n.x + n.y s.
 inline Vec2 turned(int quadrant, const Vec2& p) {
