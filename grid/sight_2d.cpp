@@ -12,13 +12,13 @@ constexpr double disc_margin = 1e-10;
 constexpr double range_margin = 0x1p-50;
 
 struct Span {
-  Direction from, to;
+  Bearing from, to;
 };
 
 /// Directions `centre` turned by -+ the angle whose cosine and sine are as `along` and `across`.
 Span turned_both_ways(const Vec2& centre, double along, double across) {
   const Vec2 ahead = along * centre, left = across * Vec2(-centre.y, centre.x);
-  return {direction_of(ahead - left), direction_of(ahead + left)};
+  return {bearing_of(ahead - left), bearing_of(ahead + left)};
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ void Sight2D::begin(const ViewVolume& volume) {
   if (volume.all_round()) return;
   // The sides' normals point inwards, clockwise side first; the rays that bound the field of view:
   const Vec3 &right = volume.begin()[0].normal, &left = volume.begin()[1].normal;
-  const Direction first = direction_of({right.y, -right.x}), last = direction_of({-left.y, left.x});
+  const Bearing first = bearing_of({right.y, -right.x}), last = bearing_of({-left.y, left.x});
   const auto close = [&](int q, double from, double to) { buffer_.close(q, from, to); };
   if (volume.convex() && last.quadrant == first.quadrant) {
     // All but a part of one quadrant.
@@ -59,11 +59,12 @@ Sight2D::Disc Sight2D::look_at_disc(const Vec2& centre, double square, double ra
     const double rest = (range_ - along) * (range_ + along) + 1e-14 * square;
     span = turned_both_ways(centre, along, std::sqrt(std::max(0.0, rest)));
   }
-  bool open = false;
+  double width = 0.0;
   for_each_run(span.from, span.to, [&](int q, double from, double to) {
-    open = open || !buffer_.hides(q, from, to, {turned(q, centre), outer, power});
+    if (width > least_width) return;
+    width += buffer_.open_width(q, from, to, {turned(q, centre), outer, power}, least_width - width);
   });
-  return open ? Disc::open : Disc::hidden;
+  return width > least_width ? Disc::open : Disc::hidden;
 }
 
 void Sight2D::hide_behind_disc(const Vec2& centre, double radius, std::uint32_t owner) {
@@ -90,7 +91,7 @@ bool Sight2D::shows_box(const Vec2& low, const Vec2& high) const {
   return (dx > 0.0 && shows({x, low.y}, {x, high.y})) || (dy > 0.0 && shows({low.x, y}, {high.x, y}));
 }
 
-double Sight2D::open_width(const Direction& from, const Direction& to, const EdgeLine& line, double enough) const {
+double Sight2D::open_width(const Bearing& from, const Bearing& to, const EdgeLine& line, double enough) const {
   double width = 0.0;
   for_each_run(from, to, [&](int q, double begin, double end) {
     if (width <= enough) width += buffer_.open_width(q, begin, end, line.high(q), enough - width);
@@ -100,7 +101,7 @@ double Sight2D::open_width(const Direction& from, const Direction& to, const Edg
 
 double Sight2D::open_width(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const {
   const bool left = turn.facing == Facing::left;
-  return open_width(direction_of(left ? a : b), direction_of(left ? b : a), turn.line(), enough);
+  return open_width(bearing_of(left ? a : b), bearing_of(left ? b : a), turn.line(), enough);
 }
 
 double Sight2D::open_width_in_range(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const {
@@ -119,7 +120,7 @@ double Sight2D::open_width_in_range(const Vec2& a, const Vec2& b, const EdgeTurn
   return open_width(t0 > 0.0 ? a + t0 * d : a, t1 < 1.0 ? a + t1 * d : b, turn, enough);
 }
 
-bool Sight2D::hide_behind_edge(const Direction& from, const Direction& to, const EdgeLine& line, std::uint32_t owner) {
+bool Sight2D::hide_behind_edge(const Bearing& from, const Bearing& to, const EdgeLine& line, std::uint32_t owner) {
   bool nearest = false;
   for_each_run(from, to, [&](int q, double begin, double end) {
     nearest = buffer_.insert(q, begin, end, line.low(q), owner) || nearest;

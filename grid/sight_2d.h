@@ -38,12 +38,12 @@ class Sight2D {
   bool shows_box(const Vec2& low, const Vec2& high) const;
 
   /// Width in which an edge between two directions is not behind the buffer. Stops adding beyond `enough`.
-  double open_width(const Direction& from, const Direction& to, const EdgeLine& line, double enough) const;
+  double open_width(const Bearing& from, const Bearing& to, const EdgeLine& line, double enough) const;
   /// The same for an edge from a to b (facing left or right), or its part within the range.
   double open_width(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const;
   double open_width_in_range(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const;
   /// Enters an edge. Whether it is the nearest anywhere.
-  bool hide_behind_edge(const Direction& from, const Direction& to, const EdgeLine& line, std::uint32_t owner);
+  bool hide_behind_edge(const Bearing& from, const Bearing& to, const EdgeLine& line, std::uint32_t owner);
 
   /// The end p of an edge, where its object ends for the viewer, drawn back towards the edge, which lies
   /// counter-clockwise (`way` 1) or clockwise (-1) of it. World points are off by some ulp, so objects that touch in a

@@ -67,7 +67,7 @@ bool Silhouettes2D::free_at(std::size_t point) const {
 // Neighbouring edges share the direction of their common point, unless the outline turns back there.
 bool Silhouettes2D::hide_behind_outline(Facing back, std::uint32_t owner) {
   bool nearest = false, known = false;
-  Direction end{};  // of the edge before, where `known`
+  Bearing end{};  // of the edge before, where `known`
   for (std::size_t i = 0; i < facing_.size(); ++i) {
     if (skipped(facing_[i], back)) {
       known = false;
@@ -77,8 +77,8 @@ bool Silhouettes2D::hide_behind_outline(Facing back, std::uint32_t owner) {
     const bool begin_free = free_at(i), end_free = free_at(after(i));
     const Vec2 a = begin_free ? sight_.drawn_back(points_[i], way) : points_[i];
     const Vec2 b = end_free ? sight_.drawn_back(points_[after(i)], -way) : points_[after(i)];
-    const Direction begin = known && !begin_free ? end : direction_of(a);
-    end = direction_of(b);
+    const Bearing begin = known && !begin_free ? end : bearing_of(a);
+    end = bearing_of(b);
     known = !end_free;
     if ((begin_free || end_free) && !(way * cross2(a, b) > 0.0)) continue;  // narrower than that: turned round
     const EdgeLine line = turn_of(i).line();
@@ -104,7 +104,7 @@ bool Silhouettes2D::hide_behind_part(const Outline2D::Part& part, std::uint32_t 
   if (part.t1 == 1.0 && free_at(after(part.edge))) q = sight_.drawn_back(q, -way);
   if (!(way * cross2(p, q) > 0.0)) return false;  // narrower than that: turned round
   if (way < 0.0) std::swap(p, q);
-  return sight_.hide_behind_edge(direction_of(p), direction_of(q), turn_of(part.edge).line(), owner);
+  return sight_.hide_behind_edge(bearing_of(p), bearing_of(q), turn_of(part.edge).line(), owner);
 }
 
 void Silhouettes2D::finish(std::vector<Slot>& visible) {

@@ -146,13 +146,14 @@ double SlopeBuffer::open_width(int quadrant, double from, double to, const Slope
   }
 }
 
-bool SlopeBuffer::hides(int quadrant, double from, double to, const DiscSight& disc) const {
-  if (!(from < to)) return true;
+double SlopeBuffer::open_width(int quadrant, double from, double to, const DiscSight& disc, double enough) const {
+  if (!(from < to)) return 0.0;
   const auto& list = pieces_[static_cast<std::size_t>(quadrant)];
+  double width = 0.0;
   for (std::size_t i = find(list, from);; ++i) {
-    const double next = list[i + 1].from;
-    if (!hidden_by(list[i], disc, std::max(from, list[i].from), std::min(to, next))) return false;
-    if (next >= to) return true;
+    const double begin = std::max(from, list[i].from), next = list[i + 1].from, end = std::min(to, next);
+    if (!hidden_by(list[i], disc, begin, end)) width += end - begin;
+    if (width > enough || next >= to) return width;
   }
 }
 

@@ -46,15 +46,15 @@ class SlopeBuffer {
 
   /// Width of the slopes in which the line is not behind the buffer; stops adding beyond `enough`.
   double open_width(int quadrant, double from, double to, const SlopeLine& high, double enough) const;
-  /// Whether the disc's near side, as far as it lies in the slopes given, is behind the buffer.
-  bool hides(int quadrant, double from, double to, const DiscSight& disc) const;
+  /// The same for the near side of a disc, between its tangents; counts whole pieces, so it may be too much.
+  double open_width(int quadrant, double from, double to, const DiscSight& disc, double enough) const;
 
-  /// Calls f(owner) for every piece that has one.
+  /// Calls f(owner) for every piece that has one and counts as more than a ray.
   template <class F>
   void for_each_owner(F&& f) const {
     for (const auto& list : pieces_) {
-      for (const Piece& p : list) {
-        if (p.owner != nobody) f(p.owner);
+      for (std::size_t i = 0; i + 1 < list.size(); ++i) {
+        if (list[i].owner != nobody && list[i + 1].from - list[i].from > least_width) f(list[i].owner);
       }
     }
   }

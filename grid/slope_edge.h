@@ -29,8 +29,8 @@
 
 namespace gridcull {
 
-/// What is visible in slopes of less than this altogether counts as hidden: 9e-13.
-inline constexpr double least_width = 0x1p-40;
+/// What is visible in slopes of less than this altogether counts as hidden: 1.2e-10.
+inline constexpr double least_width = 0x1p-33;
 
 /// w over the slopes of one quadrant.
 struct SlopeLine {
@@ -38,15 +38,15 @@ struct SlopeLine {
   double at(double s) const { return a + b * s; }
 };
 
-/// A direction by its quadrant and slope, -1 <= slope < 1: diagonals belong to the quadrant after them.
-struct Direction {
+/// A direction as quadrant and slope, -1 <= slope < 1: diagonals belong to the quadrant after them.
+struct Bearing {
   int quadrant;
   double slope;
 };
-inline Direction direction_of(const Vec2& p) {
-  if (p.y < p.x) return p.y >= -p.x ? Direction{0, p.y / p.x} : Direction{3, -p.x / p.y};
+inline Bearing bearing_of(const Vec2& p) {
+  if (p.y < p.x) return p.y >= -p.x ? Bearing{0, p.y / p.x} : Bearing{3, -p.x / p.y};
   if (p.y > -p.x) return {1, -p.x / p.y};
-  return p.y > p.x ? Direction{2, p.y / p.x} : Direction{3, -1.0};
+  return p.y > p.x ? Bearing{2, p.y / p.x} : Bearing{3, -1.0};
 }
 /// Turns the quadrant's axis to +x. Exact. Turns the line n . p = 1 (given as n) into w = n.x + n.y s.
 inline Vec2 turned(int quadrant, const Vec2& p) {
@@ -60,7 +60,7 @@ inline Vec2 turned(int quadrant, const Vec2& p) {
 
 /// Calls f(quadrant, from, to) for the slopes from `from` counter-clockwise to `to`, less than half a turn.
 template <class F>
-void for_each_run(const Direction& from, Direction to, F&& f) {
+void for_each_run(const Bearing& from, Bearing to, F&& f) {
   if (to.slope == -1.0) to = {(to.quadrant + 3) & 3, 1.0};  // the same diagonal, from before
   int q = from.quadrant;
   double begin = from.slope;

@@ -115,8 +115,9 @@ TEST_CASE("closed slopes hide everything, an edge at the same place is open") {
   buffer.close(0, -0.5, 0.25);
   CHECK(buffer.open_width(0, -0.5, 0.25, {1e9, 0.0}, 9.0) == 0.0);
   CHECK(buffer.open_width(0, -1.0, 1.0, {1e-9, 0.0}, 9.0) == doctest::Approx(1.25));
-  CHECK(buffer.hides(0, -0.5, 0.25, {{2.0, 0.0}, 1.0, 3.0}));
-  CHECK_FALSE(buffer.hides(0, -0.5, 0.5, {{2.0, 0.0}, 1.0, 3.0}));
+  const DiscSight disc{{2.0, 0.0}, 1.0, 3.0};
+  CHECK(buffer.open_width(0, -0.5, 0.25, disc, 9.0) == 0.0);
+  CHECK(buffer.open_width(0, -0.5, 0.5, disc, 9.0) == 0.25);
   const SlopeLine wall{0.1, 0.02};
   CHECK(buffer.insert(0, 0.25, 1.0, wall, 7));
   CHECK_FALSE(buffer.insert(0, 0.25, 1.0, wall, 8));
@@ -128,14 +129,14 @@ TEST_CASE("directions: every quadrant, diagonals at its ends") {
     for (const double s : {-1.0, -0.75, 0.0, 0.5}) {
       // The direction (1, s) of the quadrant, turned back.
       const Vec2 p = turned((4 - q) & 3, {8.0, 8.0 * s});
-      const Direction d = direction_of(p);
+      const Bearing d = bearing_of(p);
       CHECK(d.quadrant == q);
       CHECK(d.slope == s);
     }
   }
   int runs = 0;
   double width = 0.0;
-  for_each_run(direction_of({1, -1}), direction_of({1, 1}), [&](int q, double from, double to) {
+  for_each_run(bearing_of({1, -1}), bearing_of({1, 1}), [&](int q, double from, double to) {
     CHECK(q == 0);
     ++runs;
     width += to - from;
@@ -171,7 +172,7 @@ TEST_CASE("a disc is hidden by a line exactly when no part of it is in front, in
     const Vec2 a = t * centre - radius * left, b = t * centre + radius * left;
     const double from = a.x > 0.0 ? std::max(-1.0, a.y / a.x) : -1.0, to = b.x > 0.0 ? std::min(1.0, b.y / b.x) : 1.0;
     if (!(from < to)) continue;
-    const bool hides = buffer.hides(0, from, to, disc);
+    const bool hides = buffer.open_width(0, from, to, disc, 0.0) == 0.0;
     if (front) CHECK_FALSE(hides);
     (hides ? hidden : seen) += 1;
   }
@@ -196,7 +197,7 @@ TEST_CASE("no rounding makes a wall hide its own pieces or what touches it in fr
     SlopeBuffer buffer;
     buffer.reset();
     const bool left = whole.facing == Facing::left;
-    for_each_run(direction_of(left ? a - eye : b - eye), direction_of(left ? b - eye : a - eye),
+    for_each_run(bearing_of(left ? a - eye : b - eye), bearing_of(left ? b - eye : a - eye),
                  [&](int q, double from, double to) { (void)buffer.insert(q, from, to, whole.line().low(q), 0); });
     // A piece of the wall, its ends rounded to doubles of the world.
     double t0 = random.uniform(0, 1), t1 = random.uniform(0, 1);
@@ -205,7 +206,7 @@ TEST_CASE("no rounding makes a wall hide its own pieces or what touches it in fr
     const EdgeTurn piece = turn_of_edge(p, q, blur);
     if (piece.facing > Facing::right || piece.facing != whole.facing) continue;
     double open = 0.0, all = 0.0;
-    for_each_run(direction_of(left ? p : q), direction_of(left ? q : p), [&](int k, double from, double to) {
+    for_each_run(bearing_of(left ? p : q), bearing_of(left ? q : p), [&](int k, double from, double to) {
       open += buffer.open_width(k, from, to, piece.line().high(k), 9.0);
       all += std::max(0.0, to - from);
     });
