@@ -19,5 +19,6 @@ void add_info_command(CLI::App& app, Action& action);
 void add_make_command(CLI::App& app, Action& action);
 void add_import_command(CLI::App& app, Action& action);
 void add_methods_command(CLI::App& app, Action& action);
+void add_bench_command(CLI::App& app, Action& action);
 
 }  // namespace gridcull

@@ -18,15 +18,10 @@ double mean(std::uint64_t sum, std::uint64_t count) {
   return count == 0 ? 0.0 : static_cast<double>(sum) / static_cast<double>(count);
 }
 
-/// What one view's judgement adds to the verdict.
-struct Judgement {
-  std::size_t exact = 0;
-  std::vector<Miss> misses{};
-  std::uint64_t unconfirmed = 0;
-};
+}  // namespace
 
-Judgement compare(const ExactAnswer& exact, const Answer& answer, const View& view, const ExactRays* rays,
-                  std::uint64_t frame) {
+Judgement judge_answer(const ExactAnswer& exact, const Answer& answer, const View& view, const ExactRays* rays,
+                       std::uint64_t frame) {
   Judgement judgement;
   judgement.exact = exact.visible.size();
   for (std::size_t i = 0; i < exact.visible.size(); ++i) {
@@ -41,8 +36,6 @@ Judgement compare(const ExactAnswer& exact, const Answer& answer, const View& vi
   }
   return judgement;
 }
-
-}  // namespace
 
 double Verdict::exact_mean() const { return mean(exact, queries); }
 double Verdict::reported_mean() const { return mean(reported, queries); }
@@ -67,7 +60,7 @@ void Judge::judge(const Replay& replay) {
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
     if (interrupted()) return;
     const ExactAnswer exact = rays ? rays->visible(views[i]) : exact_visible_2d(objects, views[i]);
-    judgements[i] = compare(exact, answers[i], views[i], rays ? &*rays : nullptr, replay.frame());
+    judgements[i] = judge_answer(exact, answers[i], views[i], rays ? &*rays : nullptr, replay.frame());
   });
   stop_if_interrupted();
   ++verdict_.frames;

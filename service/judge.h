@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gridcull/core/culler.h"
+#include "gridcull/core/exact.h"
 #include "gridcull/sim/replay.h"
 
 namespace gridcull {
@@ -17,6 +18,17 @@ struct Miss {
   ObjectId object = no_id;
   Vec3 direction{0.0};  ///< unit, in which the viewer sees it; zero: it holds the viewer
 };
+
+/// What one view's judgement adds to a verdict.
+struct Judgement {
+  std::size_t exact = 0;
+  std::vector<Miss> misses{};
+  std::uint64_t unconfirmed = 0;
+};
+
+/// Holds one answer against the exact one. `rays` confirms 3D misses in doubles; nullptr in 2D.
+Judgement judge_answer(const ExactAnswer& exact, const Answer& answer, const View& view, const ExactRays* rays,
+                       std::uint64_t frame);
 
 struct Verdict {
   std::uint64_t frames = 0;  ///< judged

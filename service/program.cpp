@@ -69,6 +69,7 @@ int run_program(int argc, const char* const* argv) {
   add_make_command(app, action);
   add_import_command(app, action);
   add_methods_command(app, action);
+  add_bench_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -76,7 +77,7 @@ int run_program(int argc, const char* const* argv) {
   } catch (const std::exception& e) {
     return refuse(e.what());
   }
-  if (!action) return refuse("a command is missing: run, check, info, make, import or methods (see gridcull --help)");
+  if (!action) return refuse("a command is missing: run, check, info, make, import, methods or bench (see gridcull --help)");
   return perform(action);
 }
 

@@ -7,6 +7,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/service/progress.h"
+#include "gridcull/service/resolution.h"
 #include "gridcull/service/text.h"
 
 namespace gridcull {
@@ -22,6 +23,7 @@ void check_options(const WorldOptions& options) {
   if (options.tbv != "off" && options.tbv != "solid" && options.tbv != "hollow") {
     throw option_error("--tbv", "off, solid or hollow", options.tbv);
   }
+  if (!options.resolution.empty()) (void)parse_resolution(options.resolution);
   if (options.scene == "-" && options.frames == "-") {
     throw Error(ErrorCode::usage, "--frames -: standard input is the scene already");
   }
@@ -51,6 +53,10 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
       .add_option("--tbv", options.tbv,
                   "temporal bounding volumes of hidden movers: off, solid or hollow (default solid)")
       ->type_name("KIND");
+  command
+      .add_option("--resolution", options.resolution,
+                  "R pixels along a cube face's edge, or WxH rays, 1 .. 8192; as gridcull methods says")
+      ->type_name("R|WxH");
   command.add_flag("--pull", options.pull,
                    "the method asks for the positions that it needs, instead of being told all");
 }
@@ -74,6 +80,12 @@ std::unique_ptr<Culler> make_culler(const WorldOptions& options, const PreparedW
   method.tbv = options.tbv;
   method.threads = options.threads;
   method.max_memory = options.max_memory;
+  if (!options.resolution.empty()) {
+    const Resolution resolution = parse_resolution(options.resolution);
+    for (const MethodEntry& entry : method_catalog()) {
+      if (entry.info.name == options.method) apply_resolution(resolution, entry, method);
+    }
+  }
   return make_method(options.method, method);
 }
 

@@ -31,11 +31,12 @@ struct WorldOptions {
   int threads = 1;
   std::string tbv = MethodOptions{}.tbv;
   bool pull = false;
+  std::string resolution{};  ///< R or WxH; "": the method's default
 };
 
 /// SCENE, --frames, --cell and --max-memory.
 void add_scene_options(CLI::App& command, WorldOptions& options);
-/// --method, --threads, --tbv and --pull.
+/// --method, --threads, --tbv, --pull and --resolution.
 void add_method_options(CLI::App& command, WorldOptions& options);
 
 /// A scene that was read, and the grid for it.

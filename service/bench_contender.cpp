@@ -1,0 +1,116 @@
+#include "gridcull/service/bench_contender.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gridcull/core/error.h"
+#include "gridcull/grid/lattice.h"
+#include "gridcull/service/text.h"
+
+namespace gridcull {
+namespace {
+
+constexpr std::size_t many_viewers = 10;
+/// Finer cells than the scene's own are tried by themselves only where they are few.
+constexpr double most_cells = 2e6;
+
+bool takes(const MethodEntry& method, const char* option) {
+  return method.options.find(option) != std::string_view::npos;
+}
+
+double cell_count(const BenchScene& scene, double cell) {
+  const Vec3 size = scene.choice.bounds.size();
+  double count = 1.0;
+  for (int k = 0; k < scene.scene.dimension; ++k) count *= std::max(1.0, size[k] / cell);
+  return count;
+}
+
+std::vector<double> cells_of(const BenchScene& scene, const BenchChoice& choice) {
+  if (!choice.cells.empty()) return choice.cells;
+  std::vector<double> cells{2.0 * scene.default_cell, scene.default_cell};
+  const double fine = 0.5 * scene.default_cell;
+  if (cell_count(scene, fine) <= most_cells) cells.push_back(fine);
+  return cells;
+}
+
+/// The settings of one method on one scene, threads apart.
+std::vector<Contender> settings_of(const MethodEntry& method, const BenchScene& scene, const BenchChoice& choice) {
+  Contender one;
+  one.method = &method;
+  one.options.dimension = scene.scene.dimension;
+  one.options.bounds = scene.choice.bounds;
+  one.options.cell = scene.default_cell;
+  one.options.max_memory = choice.max_memory;
+  std::vector<Contender> out;
+  const bool edge = takes_edge(method) && scene.scene.dimension == 3, picture = takes_picture(method);
+  if (edge || picture) {
+    one.setting_name = "resolution";
+    std::vector<Resolution> all = choice.resolutions;
+    if (all.empty() && edge) all = {{}, {.edge = 64}, {.edge = 128}, {.edge = 256}, {.edge = 512}};
+    if (all.empty() && picture) all = {{.width = 42, .height = 24}, {}, {.width = 320, .height = 180}};
+    for (const Resolution& resolution : all) {
+      if ((resolution.edge > 0 && !edge) || (resolution.width > 0 && !picture)) continue;
+      apply_resolution(resolution, method, one.options);
+      one.setting = resolution_text(resolution);
+      if (picture && resolution.width == 0) one.setting = "128x72";
+      one.is_default = picture ? one.setting == "128x72" : resolution.edge == 0;
+      out.push_back(one);
+    }
+    // Nothing asked for that this method takes: its default.
+    if (out.empty()) one.setting = picture ? "128x72" : "auto", out.push_back(one);
+  } else if (takes(method, "--cell") && !takes_edge(method)) {
+    one.setting_name = "cell";
+    for (const double cell : cells_of(scene, choice)) {
+      one.options.cell = cell;
+      one.setting = number_text(cell) + " m";
+      one.is_default = cell == scene.default_cell;
+      out.push_back(one);
+    }
+  } else {
+    out.push_back(one);
+  }
+  // A curve without its default: the first stands for it.
+  if (std::none_of(out.begin(), out.end(), [](const Contender& c) { return c.is_default; })) out[0].is_default = true;
+  return out;
+}
+
+}  // namespace
+
+std::string Contender::label() const {
+  std::string text(method->info.name);
+  if (!setting.empty()) text += ", " + setting_name + " " + setting;
+  return text + ", " + counted(static_cast<unsigned long long>(options.threads), "thread");
+}
+
+const MethodEntry& find_method(const std::string& name) {
+  std::string known;
+  for (const MethodEntry& method : method_catalog()) {
+    if (method.info.name == name) return method;
+    known += (known.empty() ? "" : ", ") + std::string(method.info.name);
+  }
+  throw option_error("--methods", "some of " + known, name);
+}
+
+std::vector<Contender> choose_contenders(const BenchScene& scene, const BenchChoice& choice) {
+  std::vector<const MethodEntry*> methods;
+  for (const std::string& name : choice.methods) methods.push_back(&find_method(name));
+  if (methods.empty()) {
+    for (const MethodEntry& method : method_catalog()) methods.push_back(&method);
+  }
+  std::vector<int> threads = choice.threads;
+  if (threads.empty()) threads = scene.scene.viewers.size() >= many_viewers ? std::vector{1, 2} : std::vector{1};
+  std::vector<Contender> out;
+  for (const MethodEntry* method : methods) {
+    if (scene.scene.dimension == 2 ? !method->info.takes_2d : !method->info.takes_3d) continue;
+    const bool parallel = takes(*method, "--threads");
+    for (const Contender& setting : settings_of(*method, scene, choice)) {
+      for (const int count : parallel ? threads : std::vector{1}) {
+        out.push_back(setting);
+        out.back().options.threads = count;
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace gridcull

@@ -1,0 +1,180 @@
+// `gridcull bench`: methods against methods, speed against accuracy, in one run.
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "gridcull/core/error.h"
+#include "gridcull/service/bench_charts.h"
+#include "gridcull/service/bench_output.h"
+#include "gridcull/service/bench_report.h"
+#include "gridcull/service/bench_run.h"
+#include "gridcull/service/commands.h"
+#include "gridcull/service/gnuplot.h"
+#include "gridcull/service/interrupt.h"
+#include "gridcull/service/progress.h"
+#include "gridcull/service/text.h"
+
+namespace gridcull {
+namespace {
+
+struct BenchOptions {
+  /// A minute or two on two cores. Three sizes of spheres for the chart of hidden objects, three numbers of viewers.
+  std::vector<std::string> scenes{"spheres:1000",
+                                  "spheres:5000",
+                                  "spheres:20000",
+                                  "city:20:1000",
+                                  "discs:300",
+                                  "town:400:viewers=1:range=150",
+                                  "town:400:viewers=10:range=150",
+                                  "town:400:viewers=100:range=150"};
+  std::vector<std::string> resolutions{};
+  BenchChoice choice{};
+  BenchSettings settings{};
+  // Signed, so that a number below 0 is seen as such.
+  std::int64_t frames = 40, judged = 3;
+  std::string out{};
+};
+
+void check_choice(BenchOptions& options) {
+  for (const std::string& method : options.choice.methods) (void)find_method(method);
+  for (const int threads : options.choice.threads) {
+    if (threads < 1 || threads > 256) throw option_error("--threads", "1 .. 256", std::to_string(threads));
+  }
+  for (const std::string& text : options.resolutions) {
+    options.choice.resolutions.push_back(parse_resolution(text, "--resolutions"));
+  }
+  for (const double cell : options.choice.cells) {
+    if (!(cell > 0.0 && std::isfinite(cell))) throw option_error("--cells", "sizes above 0", number_text(cell));
+  }
+  std::set<std::string> names;
+  for (const std::string& scene : options.scenes) {
+    (void)parse_bench_scene(scene);
+    if (!names.insert(scene).second) throw Error(ErrorCode::usage, "--scenes: " + scene + " stands there twice");
+  }
+}
+
+void check_settings(BenchOptions& o) {
+  BenchSettings& s = o.settings;
+  if (o.frames < 1) throw option_error("--frames", "1 or more", std::to_string(o.frames));
+  if (o.judged < 0) throw option_error("--judge", "0 or more", std::to_string(o.judged));
+  s.frames = static_cast<std::uint64_t>(o.frames);
+  s.judged = static_cast<std::uint64_t>(o.judged);
+  if (s.repeats < 1 || s.repeats > 1000) throw option_error("--repeats", "1 .. 1000", std::to_string(s.repeats));
+  if (s.rays < 1 || s.rays > 16384) throw option_error("--rays", "1 .. 16384", std::to_string(s.rays));
+  if (!(s.seconds > 0.0)) throw option_error("--seconds", "seconds above 0", number_text(s.seconds));
+}
+
+/// A scene and who runs on it.
+struct Match {
+  std::string scene;
+  std::vector<Contender> contenders;
+};
+
+/// Opens every scene once, so that a bad one is refused before the work.
+std::vector<Match> plan(const BenchOptions& options) {
+  std::vector<Match> matches;
+  for (const std::string& name : options.scenes) {
+    stop_if_interrupted();
+    matches.push_back({name, choose_contenders(open_bench_scene(name), options.choice)});
+    if (matches.back().contenders.empty()) {
+      throw Error(ErrorCode::usage, "--methods: none of them takes " + name);
+    }
+  }
+  return matches;
+}
+
+std::vector<BenchSceneResult> run_all(const BenchOptions& options, const std::vector<Match>& matches) {
+  std::uint64_t total = 0, done = 0;
+  for (const Match& match : matches) {
+    total += match.contenders.size() * options.settings.frames * static_cast<std::uint64_t>(options.settings.repeats);
+  }
+  std::vector<BenchSceneResult> results;
+  for (const Match& match : matches) {
+    {
+      Progress progress("frames, " + match.scene, total);
+      const BenchScene scene = open_bench_scene(match.scene);
+      results.push_back(run_bench_scene(scene, match.contenders, options.settings, [&] { progress.update(++done); }));
+    }
+    std::fputs(("\n" + bench_table(results.back())).c_str(), stdout);
+    std::fflush(stdout);
+  }
+  return results;
+}
+
+int bench(BenchOptions options) {
+  check_choice(options);
+  check_settings(options);
+  std::optional<BenchOutput> output;
+  if (!options.out.empty()) output.emplace(options.out);
+  const std::vector<Match> matches = plan(options);
+  std::fputs(bench_head(options.settings).c_str(), stdout);
+  const std::vector<BenchSceneResult> results = run_all(options, matches);
+  if (!output) return 0;
+  const std::string gnuplot = find_gnuplot();
+  const std::vector<Chart> charts = bench_charts(results);
+  output->commit(bench_head(options.settings) + bench_csv(results), charts, gnuplot);
+  std::printf("\n%s/bench.csv%s\n", options.out.c_str(),
+              gnuplot.empty()
+                  ? ", and charts as scripts: gnuplot was not found, so none was drawn (Debian: gnuplot-nox)"
+                  : (", " + counted(charts.size(), "chart") + " as .svg, .png and .gp").c_str());
+  return 0;
+}
+
+void add_options(CLI::App& command, BenchOptions& o) {
+  command
+      .add_option("--scenes", o.scenes,
+                  "spheres:COUNT, discs:COUNT, town:BUILDINGS, maze:SIDE or city:BLOCKS:CARS, each with :viewers=V, "
+                  ":range=M, :cell=M, :seed=S (spheres: :hidden=N) behind; a folder, a scene file, or SCENE@FRAMES")
+      ->delimiter(',')
+      ->type_name("S,S...");
+  command.add_option("--methods", o.choice.methods, "as listed by gridcull methods (default: all that take the scene)")
+      ->delimiter(',')
+      ->type_name("M,M...");
+  command
+      .add_option("--threads", o.choice.threads, "1 .. 256 each (default 1; 1 and 2 for scenes of ten viewers or more)")
+      ->delimiter(',')
+      ->type_name("N,N...");
+  command
+      .add_option("--resolutions", o.resolutions, "R for methods that take R, WxH for those that take WxH; 1 .. 8192")
+      ->delimiter(',')
+      ->type_name("R|WxH,...");
+  command
+      .add_option("--cells", o.choice.cells,
+                  "metres, for methods whose setting it is (default 2, 1 and 1/2 x the scene's)")
+      ->delimiter(',')
+      ->type_name("M,M...");
+  command.add_option("--repeats", o.settings.repeats, "times over (default 3)")->type_name("N");
+  command.add_option("--frames", o.frames, "of each scene, at most (default 40)")->type_name("N");
+  command.add_option("--judge", o.judged, "frames held against the exact sets (default 3, 0: none)")->type_name("N");
+  command
+      .add_option("--rays", o.settings.rays,
+                  "3D reference: along a frustum's height or a cube face's edge (default 256)")
+      ->type_name("R");
+  command
+      .add_option("--seconds", o.settings.seconds, "a contender that has used more on a scene is stopped (default 20)")
+      ->type_name("S");
+  command.add_option("--max-memory", o.choice.max_memory, "refuse grids larger than this (default 4 GiB)")
+      ->type_name("BYTES");
+  command.add_option("--out", o.out, "folder for bench.csv and the charts; without it only the tables")
+      ->type_name("DIR");
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<BenchOptions>();
+  CLI::App& command = *app.add_subcommand("bench", "Methods against methods: time, over-estimation, misses, memory");
+  add_options(command, *options);
+  command.footer(
+      "Example: two methods on spheres, with charts\n"
+      "  gridcull bench --scenes spheres:1000 --methods frustum,pairwise-rays --frames 10 --out bench");
+  command.callback([options, &action] { action = [options] { return bench(*options); }; });
+}
+
+}  // namespace gridcull

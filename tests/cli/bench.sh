@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# `gridcull bench`: a small run with its files, what it refuses, Ctrl-C.
+source "$(dirname "$0")/library.sh"
+
+small=(--scenes discs:40,discs:80 --methods frustum,pairwise-rays --frames 4 --repeats 2 --judge 2)
+good "tables only" bench "${small[@]}"
+grep -q "pairwise-rays, 1 thread" stdout.txt || fail "no row of pairwise-rays: $(cat stdout.txt)"
+is "nothing written" "$(ls -A out)" ""
+
+good "with files" bench "${small[@]}" --out out/b
+is "a line a row, and the names" "$(grep -vc '^#' out/b/bench.csv)" 5
+for fact in commit compiler flags processor; do
+  grep -q "^# $fact: ." out/b/bench.csv || fail "bench.csv does not name its $fact"
+done
+misses=$(awk -F, '/^scene,/ { for (i = 1; i <= NF; ++i) at[$i] = i } /,frustum,/ { sum += $at["misses"] } END { print sum }' \
+  out/b/bench.csv)
+is "the view volume misses nobody" "$misses" 0
+charts="accuracy-discs-40 accuracy-discs-80 hidden-discs"
+if command -v gnuplot >/dev/null; then
+  for chart in $charts; do
+    for ending in gp svg png; do
+      [ -s "out/b/$chart.$ending" ] || fail "$chart.$ending is not there"
+    done
+    head -c 300 "out/b/$chart.svg" | grep -q '<svg' || fail "$chart.svg is no SVG"
+  done
+fi
+is "nothing but what was meant" "$(ls -A out/b | grep -c '^\.')" 0
+rm -rf out/b
+
+# Without gnuplot: the CSV and the scripts, and a line that says so.
+PATH=/nonexistent good "without gnuplot" bench "${small[@]}" --out out/b
+grep -q "gnuplot was not found" stdout.txt || fail "gnuplot missing, said: $(cat stdout.txt)"
+[ -s out/b/bench.csv ] && [ -s out/b/hidden-discs.gp ] && [ ! -e out/b/hidden-discs.svg ] || fail "files without gnuplot"
+rm -rf out/b
+
+# A scene from files.
+"$program" make discs --count 30 --frames 5 --out world >/dev/null || fail "make"
+good "a folder" bench --scenes world --methods frustum --repeats 1
+grep -q "^world: 2D, 30 objects" stdout.txt || fail "a folder: $(cat stdout.txt)"
+good "files" bench --scenes world/scene.json@world/frames.jsonl --methods frustum --repeats 1
+
+r() { refused "$1" "$2" bench "${@:3}" --out out/b; }
+r "unknown scene" "volcano" --scenes volcano
+r "no such file" "missing" --scenes missing/scene.json
+r "a scene twice" "twice" --scenes discs:5,discs:5
+r "a bad count" "number" --scenes discs:many
+r "unknown method" "magic" --methods magic
+r "a method that takes no such scene" "none of them" --scenes discs:5 --methods depth-rays
+r "0 threads" "threads" --threads 0
+r "10,000 threads" "threads" --threads 1,10000
+r "resolution 0" "resolution" --resolutions 0
+r "resolution below 0" "resolution" --resolutions -5
+r "resolution above 8192" "resolution" --resolutions 128x72,8193
+r "cell 0" "cells" --cells 0
+r "0 repeats" "repeats" --repeats 0
+r "0 frames" "frames" --frames 0
+r "frames below 0" "frames" --frames -1
+r "judge below 0" "judge" --judge -1
+r "0 rays" "rays" --rays 0
+refused "a file as folder" "world/scene.json" bench "${small[@]}" --out world/scene.json
+refused "resolution 0 to run" "resolution" run world/scene.json --resolution 0
+refused "resolution above 8192 to run" "resolution" run world/scene.json --resolution 9000
+"$program" make spheres --count 5 --frames 1 --out solid >/dev/null || fail "make"
+refused "R for WxH" "WxH" run solid/scene.json --method depth-rays --resolution 64
+
+# Ctrl-C in the middle of the work.
+set -m
+"$program" bench --scenes discs:2000 --methods frustum --frames 100 --repeats 1000 --seconds 1000 --judge 0 --out out/b \
+  >stdout.txt 2>stderr.txt &
+child=$!
+for _ in $(seq 100); do grep -q processor stdout.txt 2>/dev/null || [ -n "$(ls -A out/b 2>/dev/null)" ] && break; sleep 0.05; done
+kill -INT "$child"
+wait "$child"
+is "status after Ctrl-C" "$?" 130
+is "left behind after Ctrl-C" "$(ls -A out)" ""
+grep -q '^gridcull: stopped' stderr.txt || fail "Ctrl-C: said: $(cat stderr.txt)"
+
+finish
