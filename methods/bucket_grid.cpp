@@ -39,18 +39,21 @@ bool BucketGrid::choose(std::span<const Item> items, const Bounds& world, int di
   world_ = world;
   if (dimension == 2) world_.min.z = world_.max.z = 0.0;
   lattice_ = Bounds{};
-  double count = 0.0;
+  double count = 0.0, edges = 0.0;
   for (const Item& item : items) {
     if (!holds(world_, item.box)) continue;
     lattice_.add(item.box.min);
     lattice_.add(item.box.max);
     count += 1.0;
+    const Vec3 size = item.box.size();
+    edges += std::max({size.x, size.y, size.z});
   }
   if (lattice_.empty()) return false;
   const Vec3 size = lattice_.size();
   const double room = dimension == 2 ? size.x * size.y : size.x * size.y * size.z;
   const double wanted = room / (buckets_an_item * count);
-  const double edge = dimension == 2 ? std::sqrt(wanted) : std::cbrt(wanted);
+  // Not below the items' mean size: 100,000 spheres that overlap would lie in 50 buckets each.
+  const double edge = std::max(dimension == 2 ? std::sqrt(wanted) : std::cbrt(wanted), edges / count);
   for (int k = 0; k < 3; ++k) {
     const double along = edge > 0.0 ? std::floor(size[k] / edge) : 1.0;
     cells_[at(k)] = std::clamp(static_cast<std::int64_t>(std::fmin(along, 1e6)), std::int64_t{1}, most_along_an_axis);

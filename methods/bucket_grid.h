@@ -23,8 +23,9 @@ class BucketGrid {
     std::uint32_t name;  ///< what the walks hand out
   };
 
-  /// About two buckets an item, over the items' common box clipped to `world`. Items that leave `world` or would lie in
-  /// very many buckets are kept in a list that every walk hands out first. Storage is reused.
+  /// About two buckets an item, none smaller than the mean item, over the items' common box clipped to `world`. Items
+  /// that leave `world` or would lie in very many buckets are kept in a list that every walk hands out first. Storage
+  /// is reused.
   void build(std::span<const Item> items, const Bounds& world, int dimension);
 
   /// Names near the segment from + t * along, 0 <= t <= 1, each once or more, in walking order, until use(name) is

@@ -71,7 +71,8 @@ std::string data_of(const Curves& curves) {
 }
 
 std::string plot_of(const Curves& curves, bool labels) {
-  std::string out = "plot ";
+  // Where reported and visible are the same.
+  std::string out = labels ? "plot 1 lc \"gray\" notitle, " : "plot ";
   int number = 0;
   for (const auto& [name, points] : curves) {
     const std::string data = "$curve" + std::to_string(number), style = std::to_string(number + 1);
@@ -89,7 +90,9 @@ std::string script_of(const Axes& axes, const Curves& curves) {
          "\n";
   out += "set xlabel " + quoted(axes.x) + "\nset ylabel " + quoted(axes.y) + "\n";
   out += axes.log_x ? "set logscale xy\n" : "set logscale y\n";
-  out += "set key outside right top\nset grid\nset offsets graph 0.05, graph 0.05, graph 0.1, graph 0.05\n";
+  out +=
+      "set key outside right top\nset grid\nset autoscale xfix\nset autoscale yfix\nset offsets graph 0.05, graph "
+      "0.05, graph 0.1, graph 0.05\n";
   const std::string plot = plot_of(curves, axes.labels);
   out += "set terminal svg size 1000,560 noenhanced font \"sans,13\" background \"white\"\nset output ARG1\n" + plot;
   out += "set terminal pngcairo size 1000,560 noenhanced font \"sans,11\"\nset output ARG2\n" + plot + "set output\n";

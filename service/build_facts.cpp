@@ -4,7 +4,7 @@
 #include <ctime>
 #include <fstream>
 
-#include "gridcull_build_facts.h"
+#include <gridcull_build_facts.h>  // made in every build
 
 namespace gridcull {
 
