@@ -76,8 +76,22 @@ std::vector<RayTruth::Stretch> RayTruth::prism_stretches(const Long3& d) const {
   return out;
 }
 
+Long3 RayTruth::local(const Long3& d) const { return {dot(axes_[0], d), dot(axes_[1], d), dot(axes_[2], d)}; }
+
+bool RayTruth::runs_along_a_wall(const Long3& direction) const {
+  const auto* prism = std::get_if<Prism>(shape_);
+  if (prism == nullptr) return false;
+  const Long3 d = local(direction);
+  const auto& v = prism->vertices;
+  for (std::size_t i = 0, j = v.size() - 1; i < v.size(); j = i++) {
+    const long double ex = v[i].x - v[j].x, ey = v[i].y - v[j].y;
+    if (std::fabs(d.x * ey - d.y * ex) <= 1e-9L * std::hypot(d.x, d.y) * std::hypot(ex, ey)) return true;
+  }
+  return false;
+}
+
 std::vector<RayTruth::Stretch> RayTruth::stretches(const Long3& world) const {
-  const Long3 d{dot(axes_[0], world), dot(axes_[1], world), dot(axes_[2], world)};
+  const Long3 d = local(world);
   if (std::holds_alternative<Prism>(*shape_)) return prism_stretches(d);
   Stretch s{-infinity, infinity};
   for (const Plane& plane : planes_) {

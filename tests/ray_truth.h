@@ -30,6 +30,9 @@ class RayTruth {
   /// Distance at which the ray first has the shape's interior just behind it (thin: crosses a face).
   std::optional<long double> entrance(const Long3& direction) const;
 
+  /// Whether the ray lies in a prism's wall but for rounding: then entrance() says nothing.
+  bool runs_along_a_wall(const Long3& direction) const;
+
   /// Whether the open interior holds the viewpoint.
   bool holds_eye() const;
 
@@ -41,6 +44,7 @@ class RayTruth {
   struct Stretch {
     long double begin, end;
   };
+  Long3 local(const Long3& direction) const;
   std::vector<Stretch> stretches(const Long3& direction) const;
   std::vector<Stretch> prism_stretches(const Long3& direction) const;
   std::optional<long double> faces_entrance(const Long3& direction) const;

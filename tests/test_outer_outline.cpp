@@ -52,6 +52,7 @@ void check_slices(const Placement& placed, const PlacedPiece& hull, const Outlin
   }
   for (int k = 0; k < 20; ++k) {
     const Long3 d = point_of(vertices, placed.eye, false, random);
+    if (truth.runs_along_a_wall(d)) continue;
     const long double front = truth.entrance(d).value_or(length(d));
     bool found = false;
     for (std::size_t s = 0; s < 3; ++s) {
