@@ -16,22 +16,32 @@ GridEngine::GridEngine(const GridOptions& options) {
   if (options.threads < 1 || options.threads > 256) {
     throw Error(ErrorCode::usage, "threads: expected 1 .. 256, found " + std::to_string(options.threads));
   }
+  if (options.resolution != 0 && (options.resolution < 8 || options.resolution > 8192)) {
+    throw Error(ErrorCode::usage, "resolution: expected 8 .. 8192, found " + std::to_string(options.resolution));
+  }
   state_ = std::make_unique<State>(options);
 }
 
 GridEngine::~GridEngine() = default;
 
-const MethodInfo& grid_engine_info() {
+const MethodInfo& grid_engine_info(Hiding hiding) {
   static constexpr MethodInfo voxel{"voxel",
                                     "regular grid, occluders fused in object space (Batagelo and Wu 2002)",
                                     Guarantee::conservative,
                                     true,
                                     true,
                                     true};
-  return voxel;
+  static constexpr MethodInfo silhouette{"silhouette",
+                                         "regular grid, occluders fused in image space (DESIGN section 5; Batagelo and "
+                                         "Wu 2002, section 7)",
+                                         Guarantee::conservative,
+                                         false,
+                                         true,
+                                         true};
+  return hiding == Hiding::voxel ? voxel : silhouette;
 }
 
-const MethodInfo& GridEngine::info() const { return grid_engine_info(); }
+const MethodInfo& GridEngine::info() const { return grid_engine_info(state_->options.hiding); }
 
 void GridEngine::add(const Object& object) { state_->add(object); }
 
@@ -88,7 +98,7 @@ void GridEngine::query(double time, std::span<const View> views, Answers& out) {
   const auto end = std::chrono::steady_clock::now();
   const auto us = [](auto d) { return std::chrono::duration<double, std::micro>(d).count(); };
   s.stats.positions_read = s.world.positions_read;
-  s.stats.tbv_active = s.world.tbv.size() + s.world.hollow.size();
+  s.stats.tbv_active = s.volumes;
   s.stats.discretise_us = us(ready - start) + us(end - answered);
   s.stats.total_us = us(end - start);
   out.stats = s.stats;
@@ -112,6 +122,7 @@ MemoryUse GridEngine::memory() const {
     const ObjectState& state = s.world.objects[slot];
     if (state.shape) use.objects += state.shape->bytes();
   }
+  if (s.world.silhouettes) use.entries += s.world.silhouettes->bytes();
   for (const auto& task : s.tasks) use.viewers += task->bytes();
   return use;
 }

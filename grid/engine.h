@@ -1,4 +1,4 @@
-// The regular-grid engine: method `voxel` (Batagelo and Wu 2002), 2D and 3D.
+// The regular-grid engine: methods `voxel` (Batagelo and Wu 2002) and `silhouette` (DESIGN section 5), 2D and 3D.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,12 @@
 
 namespace gridcull {
 
+/// The two ways to hide inside the one engine (DESIGN section 5).
+enum class Hiding {
+  voxel,      ///< occluders are opaque cells, fused in object space (Batagelo and Wu 2002)
+  silhouette  ///< occluders are the silhouettes of what was found visible, fused in image space
+};
+
 enum class TbvMode {
   off,    ///< every moving object is read and discretised in every frame
   solid,  ///< temporal bounding volumes as filled discs or balls: the safe default
@@ -20,13 +26,15 @@ enum class TbvMode {
 struct GridOptions {
   int dimension = 2;
   Bounds bounds{};
-  double cell = 1.0;  ///< metres, > 0
-  TbvMode tbv = TbvMode::solid;
+  double cell = 1.0;                                  ///< metres, > 0
+  TbvMode tbv = TbvMode::solid;                       ///< `silhouette` takes hollow as solid
   int threads = 1;                                    ///< 1 .. 256; viewers run in parallel
   std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes for the matrices
+  Hiding hiding = Hiding::voxel;
+  int resolution = 0;  ///< `silhouette` in 3D: pixels along the mask's longer side, 8 .. 8192; 0: chosen per viewer
 };
 
-const MethodInfo& grid_engine_info();
+const MethodInfo& grid_engine_info(Hiding hiding);
 
 /// Bytes held, by part.
 struct MemoryUse {

@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/view_volume.h"
 #include "gridcull/grid/engine_state.h"
 
 namespace gridcull {
@@ -39,7 +40,7 @@ void GridEngine::State::settle_jumps(double time) {
     bool escaped = false;
     // A volume past its term is renewed in expire(): leaving it is no jump (the pull rule has none there either).
     if (state.place == Place::hidden && expiries.expiry(p.slot) >= time) {
-      const auto& ball = world.tbv.ball(p.slot);
+      const TbvMatrix::Ball ball = volume(p.slot);
       escaped = glm::length(state.pose.position - ball.centre) + state.reach > ball.radius * (1.0 + 1e-12);
     }
     if ((too_far || escaped) && !state.jumped) {
@@ -92,6 +93,11 @@ void GridEngine::State::discretise() {
   waiting.clear();
   for (const Slot slot : active) {
     ObjectState& state = world.objects[slot];
+    if (world.source == nullptr) {  // move() has said so already
+      world.read_alone(slot);
+      if (state.stale) cover(slot);
+      continue;
+    }
     const Pose old = state.pose;
     world.read_alone(slot);
     if (old.position != state.pose.position || old.orientation.w != state.pose.orientation.w ||
@@ -119,7 +125,7 @@ void GridEngine::State::note_viewers(std::span<const View> views) {
 void GridEngine::State::answer_views(std::span<const View> views, Answers& out) {
   out.views.resize(views.size());
   results.resize(std::max(results.size(), views.size()));
-  const auto one = [&](std::size_t i, ViewTask& task) {
+  const auto one = [&](std::size_t i, ViewAnswerer& task) {
     DrawSink* sink = draw_sink != nullptr && views[i].viewer == draw_viewer ? draw_sink : nullptr;
     task.run(world, views[i], out.views[i], results[i], sink);
   };

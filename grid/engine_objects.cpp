@@ -5,16 +5,26 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/grid/engine_state.h"
+#include "gridcull/grid/silhouette_3d.h"
+#include "gridcull/grid/silhouette_task_2d.h"
+#include "gridcull/grid/view_task.h"
 
 namespace gridcull {
 namespace {
 
 Lattice make_lattice(const GridOptions& o) { return {o.dimension, o.bounds, o.cell, o.max_memory}; }
 
+std::unique_ptr<ViewAnswerer> make_answerer(const GridOptions& o) {
+  if (o.hiding == Hiding::voxel) return std::make_unique<ViewTask>();
+  if (o.dimension == 2) return std::make_unique<SilhouetteTask2D>();
+  return std::make_unique<Silhouette3D>(o.resolution, choose_instruction_set());
+}
+
 }  // namespace
 
-GridEngine::State::State(const GridOptions& o) : options(o), world(make_lattice(o)), terms(o.cell) {
-  for (int i = 0; i < o.threads; ++i) tasks.push_back(std::make_unique<ViewTask>());
+GridEngine::State::State(const GridOptions& o)
+    : options(o), world(make_lattice(o), o.hiding == Hiding::silhouette), terms(o.cell) {
+  for (int i = 0; i < o.threads; ++i) tasks.push_back(make_answerer(o));
 }
 
 Slot GridEngine::State::slot_of(ObjectId object) const {
@@ -50,6 +60,10 @@ void GridEngine::State::add(const Object& object) {
   state.place = Place::waiting;
   waiting.push_back(slot);
   const std::size_t slots = world.objects.size();
+  if (world.silhouettes) {
+    world.silhouettes->reserve(slots);
+    world.silhouettes->add(slot, object.shape);
+  }
   world.tbv.reserve(slots);
   world.hollow.reserve(slots);
   expiries.reserve(slots);
@@ -72,6 +86,7 @@ void GridEngine::State::remove(Slot slot) {
   if (state.pushed_frame == static_cast<std::uint32_t>(world.frame + 1)) {
     std::erase_if(pushed, [&](const Pushed& p) { return p.slot == slot; });
   }
+  if (world.silhouettes) world.silhouettes->remove(slot);
   world.objects.remove(slot);
 }
 
@@ -110,16 +125,26 @@ void GridEngine::State::set_outside(Slot slot, bool outside) {
 
 void GridEngine::State::cover(Slot slot) {
   ObjectState& state = world.objects[slot];
+  state.stale = false;
+  if (world.silhouettes) {
+    world.silhouettes->place(slot, state.pose);
+    if (world.silhouettes->follow(slot, state.pose)) return;
+    set_outside(slot, !world.silhouettes->enter(slot, world.silhouettes->ball_at(slot, state.pose)));
+    return;
+  }
   state.shape->cover(world.lattice, state.pose, scratch, cover_buffer);
   world.matrix.update(slot, cover_buffer, state.occluder, state.is_static, state.entries);
   set_outside(slot, cover_buffer.outside);
-  state.stale = false;
 }
 
 void GridEngine::State::leave_grid(Slot slot) {
   ObjectState& state = world.objects[slot];
   if (state.place == Place::hidden) take_volume(slot);
-  world.matrix.remove(state.is_static, state.entries);
+  if (world.silhouettes) {
+    world.silhouettes->index.erase(slot);
+  } else {
+    world.matrix.remove(state.is_static, state.entries);
+  }
   set_outside(slot, false);
 }
 
@@ -145,7 +170,7 @@ void GridEngine::State::unlist_active(Slot slot) {
 }
 
 void GridEngine::State::hide(Slot slot) {
-  leave_grid(slot);
+  if (!world.silhouettes) leave_grid(slot);
   ObjectState& state = world.objects[slot];
   state.place = Place::hidden;
   while (lengthen_term(state)) {
@@ -159,9 +184,19 @@ bool GridEngine::State::lengthen_term(ObjectState& state) {
   const auto longer = static_cast<float>(terms.longer(state.term, state.max_speed));
   if (!(longer > state.term)) return false;
   const TbvMatrix::Ball grown{state.pose.position, TbvTerm::radius(state.max_speed, longer, state.reach)};
-  if (!world.tbv.fits(grown) || world.near_seen(grown)) return false;
+  if (world.silhouettes) {
+    if (world.silhouettes->near_seen({grown.centre, grown.radius}, world.frame)) return false;
+  } else if (!world.tbv.fits(grown) || world.near_seen(grown)) {
+    return false;
+  }
   state.term = longer;
   return true;
+}
+
+TbvMatrix::Ball GridEngine::State::volume(Slot slot) const {
+  if (!world.silhouettes) return world.tbv.ball(slot);
+  const LooseBall& ball = world.silhouettes->index.ball(slot);
+  return {ball.centre, ball.radius};
 }
 
 // Solid volumes are always right; an outline is used only where the engine can prove it: it lies wholly in the
@@ -174,6 +209,11 @@ void GridEngine::State::give_volume(Slot slot) {
   const double expiry = now + seconds;
   TbvMatrix::Ball ball{state.pose.position, TbvTerm::radius(state.max_speed, expiry - now, state.reach)};
   expiries.push(slot, expiry);
+  ++volumes;
+  if (world.silhouettes) {
+    set_outside(slot, !world.silhouettes->enter(slot, {ball.centre, ball.radius}));
+    return;
+  }
   world.tbv.set_ball(slot, ball);
   if (!world.tbv.fits(ball)) {
     set_outside(slot, true);
@@ -186,6 +226,12 @@ void GridEngine::State::give_volume(Slot slot) {
 void GridEngine::State::take_volume(Slot slot) {
   ObjectState& state = world.objects[slot];
   expiries.erase(slot);
+  --volumes;
+  if (world.silhouettes) {
+    // Left where it is: it is placed anew at once, or erased in leave_grid().
+    set_outside(slot, false);
+    return;
+  }
   if (state.hollow) {
     world.hollow.erase(slot);
     state.hollow = false;

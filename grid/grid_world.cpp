@@ -7,6 +7,26 @@
 
 namespace gridcull {
 
+namespace {
+
+Lattice one_cell(const Lattice& lattice) {
+  const Vec3 low = lattice.box().min;
+  return {lattice.dimension(), {low, low}, lattice.cell(), std::uint64_t{1} << 20};
+}
+
+}  // namespace
+
+GridWorld::GridWorld(const Lattice& cells, bool with_silhouettes)
+    : lattice(cells),
+      silhouettes(with_silhouettes
+                      ? std::make_unique<SilhouetteWorld>(cells.dimension(), cells.box(), 2.0 * cells.cell())
+                      : nullptr),
+      voxels(with_silhouettes ? one_cell(cells) : cells),
+      matrix(voxels),
+      tbv(voxels),
+      hollow(voxels),
+      seen_in(tbv.block_count(), 0) {}
+
 void check_pose(const Pose& pose, ObjectId object, int dimension) {
   const Vec3& p = pose.position;
   const Quat& q = pose.orientation;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -11,18 +12,21 @@
 #include "gridcull/grid/identifier_matrix.h"
 #include "gridcull/grid/lattice.h"
 #include "gridcull/grid/object_table.h"
+#include "gridcull/grid/silhouette_world.h"
 #include "gridcull/grid/tbv_matrix.h"
 
 namespace gridcull {
 
 struct GridWorld {
-  explicit GridWorld(const Lattice& cells)
-      : lattice(cells), matrix(lattice), tbv(lattice), hollow(lattice), seen_in(tbv.block_count(), 0) {}
+  /// `silhouettes`: objects go into the loose index, the matrices stay as small as can be.
+  GridWorld(const Lattice& cells, bool with_silhouettes);
 
   Lattice lattice;
-  IdentifierMatrix matrix;  // I, O, O_s
-  TbvMatrix tbv;            // T, solid
-  HollowTbv hollow;         // T, outlines
+  std::unique_ptr<SilhouetteWorld> silhouettes;  // method `silhouette`; then I, O and T stay empty
+  Lattice voxels;                                // the lattice, or one cell of it
+  IdentifierMatrix matrix;                       // I, O, O_s
+  TbvMatrix tbv;                                 // T, solid
+  HollowTbv hollow;                              // T, outlines
   ObjectTable objects;
   /// Slots that reach beyond the lattice, active objects and hidden volumes: tested one by one.
   std::vector<Slot> outside;

@@ -23,7 +23,8 @@ LooseIndex::LooseIndex(int dimension, const Bounds& box, double side) : dimensio
   margin_ = 0x1p-44 * magnitude;
   const Vec3 size = box.size();
   const auto make = [&](double s) {
-    return Level{count_along(size.x, s), count_along(size.y, s), dimension == 3 ? count_along(size.z, s) : 1, s};
+    return Level{count_along(size.x, s), count_along(size.y, s), dimension == 3 ? count_along(size.z, s) : 1, s,
+                 1.0 / s};
   };
   const auto nodes = [&](double s) {
     return (size.x / s + 1.0) * (size.y / s + 1.0) * (dimension == 3 ? size.z / s + 1.0 : 1.0);
@@ -33,7 +34,8 @@ LooseIndex::LooseIndex(int dimension, const Bounds& box, double side) : dimensio
   levels_.push_back(make(side));
   while (std::max({levels_.back().nx, levels_.back().ny, levels_.back().nz}) > 2) {
     const Level& fine = levels_.back();
-    levels_.push_back({(fine.nx + 1) >> 1, (fine.ny + 1) >> 1, (fine.nz + 1) >> 1, 2.0 * fine.side});
+    levels_.push_back(
+        {(fine.nx + 1) >> 1, (fine.ny + 1) >> 1, (fine.nz + 1) >> 1, 2.0 * fine.side, 0.5 * fine.inverse_side});
   }
 }
 
@@ -115,7 +117,7 @@ void LooseIndex::place(Slot slot, const LooseBall& ball) {
   if (entry.level != nowhere) {
     // Counts change only below the first ancestor that the old node and the new one share.
     Level& old_home = levels_[entry.level];
-    NodeId from = node_of(entry.ball.centre, entry.level), to = id;
+    NodeId from{entry.level, entry.x, entry.y, entry.z}, to = id;
     unlink(slot, old_home.nodes[entry.node]);
     int shared = std::max(from.level, to.level);
     while (shared < height && ((from.x >> (shared - from.level)) != (to.x >> (shared - to.level)) ||
@@ -132,6 +134,9 @@ void LooseIndex::place(Slot slot, const LooseBall& ball) {
   entry.ball = ball;
   entry.level = static_cast<std::uint8_t>(level);
   entry.node = index;
+  entry.x = id.x;
+  entry.y = id.y;
+  entry.z = id.z;
   link(slot, home.nodes[index]);
 }
 
@@ -139,7 +144,7 @@ void LooseIndex::erase(Slot slot) {
   Entry& entry = entries_[slot];
   if (entry.level == nowhere) return;
   unlink(slot, levels_[entry.level].nodes[entry.node]);
-  count(node_of(entry.ball.centre, entry.level), ~std::uint32_t{0}, static_cast<int>(levels_.size()));
+  count({entry.level, entry.x, entry.y, entry.z}, ~std::uint32_t{0}, static_cast<int>(levels_.size()));
   entry.level = nowhere;
   entry.node = none;
   --size_;

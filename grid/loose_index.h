@@ -7,7 +7,7 @@
 // empty space is skipped, and the eight (2D: four) children of a node share a cache line.
 //
 // Cost: placing an object is a division by the side and a compare when it stayed in its node; a few stores when it
-// did not. Memory: 8 bytes a node of the levels in use, 48 an object.
+// did not. Memory: 8 bytes a node of the levels in use, 64 an object.
 #pragma once
 
 #include <cmath>
@@ -50,6 +50,24 @@ class LooseIndex {
   void place(Slot slot, const LooseBall& ball);
   /// Nothing when it is not there.
   void erase(Slot slot);
+  /// Moves a ball that stays in its node and keeps its radius: false, and nothing done, when it does not or is not
+  /// here.
+  bool follow(Slot slot, const LooseBall& ball) {
+    Entry& entry = entries_[slot];
+    if (entry.level == nowhere || ball.radius != entry.ball.radius) return false;
+    const double inverse = inverse_side(entry.level);
+    const auto stays = [&](double x, double low, std::int32_t i) {
+      const double t = (x - low) * inverse - static_cast<double>(i);
+      return t >= 0.0 && t < 1.0;
+    };
+    const Vec3& c = ball.centre;
+    if (!stays(c.x, box_.min.x, entry.x) || !stays(c.y, box_.min.y, entry.y)) return false;
+    if (dimension_ == 3 && !stays(c.z, box_.min.z, entry.z)) return false;
+    entry.ball.centre = c;
+    return true;
+  }
+  /// Keeps the ball of a slot that is not here, for ball().
+  void remember(Slot slot, const LooseBall& ball) { entries_[slot].ball = ball; }
   bool holds(Slot slot) const { return entries_[slot].level != nowhere; }
   const LooseBall& ball(Slot slot) const { return entries_[slot].ball; }
   std::uint64_t size() const { return size_; }
@@ -80,12 +98,14 @@ class LooseIndex {
   struct Entry {
     LooseBall ball{};
     std::uint32_t before = none, after = none;
-    std::uint32_t node = none;
+    std::uint32_t node = none;         // index in its level
+    std::int32_t x = 0, y = 0, z = 0;  // the node's coordinates
     std::uint8_t level = nowhere;
   };
   struct Level {
     std::int32_t nx, ny, nz;
     double side;
+    double inverse_side;
     std::vector<Node> nodes{};  ///< made when first used; in blocks of siblings
     std::size_t index(const NodeId& id, int dimension) const {
       const auto bx = static_cast<std::size_t>((nx + 1) >> 1), by = static_cast<std::size_t>((ny + 1) >> 1);
@@ -100,6 +120,7 @@ class LooseIndex {
     }
   };
 
+  double inverse_side(int level) const { return levels_[static_cast<std::size_t>(level)].inverse_side; }
   int level_for(double radius) const;
   NodeId node_of(const Vec3& centre, int level) const;
   void use_level(int level);

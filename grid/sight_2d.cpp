@@ -85,7 +85,8 @@ bool Sight2D::shows_box(const Vec2& low, const Vec2& high) const {
   const auto shows = [&](const Vec2& a, const Vec2& b) {
     const EdgeTurn turn = turn_of_edge(a, b, blur_);
     if (turn.facing == Facing::touches) return true;
-    return turn.facing != Facing::radial && open_width(a, b, turn, least_width) > least_width;
+    const bool left = turn.facing == Facing::left;
+    return turn.facing != Facing::radial && open_width(a, b, left, turn.line(), least_width) > least_width;
   };
   const double x = low.x > 0.0 ? low.x : high.x, y = low.y > 0.0 ? low.y : high.y;
   return (dx > 0.0 && shows({x, low.y}, {x, high.y})) || (dy > 0.0 && shows({low.x, y}, {high.x, y}));
@@ -99,14 +100,14 @@ double Sight2D::open_width(const Bearing& from, const Bearing& to, const EdgeLin
   return width;
 }
 
-double Sight2D::open_width(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const {
-  const bool left = turn.facing == Facing::left;
-  return open_width(bearing_of(left ? a : b), bearing_of(left ? b : a), turn.line(), enough);
+double Sight2D::open_width(const Vec2& a, const Vec2& b, bool left, const EdgeLine& line, double enough) const {
+  return open_width(bearing_of(left ? a : b), bearing_of(left ? b : a), line, enough);
 }
 
-double Sight2D::open_width_in_range(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const {
+double Sight2D::open_width_in_range(const Vec2& a, const Vec2& b, bool left, const EdgeLine& line,
+                                    double enough) const {
   const double limit = range_ * range_;
-  if (glm::dot(a, a) <= limit && glm::dot(b, b) <= limit) return open_width(a, b, turn, enough);
+  if (glm::dot(a, a) <= limit && glm::dot(b, b) <= limit) return open_width(a, b, left, line, enough);
   const Vec2 d = b - a;
   const double square = glm::dot(d, d), middle = -glm::dot(a, d) / square;
   const Vec2 foot = a + middle * d;  // the line's nearest point
@@ -117,7 +118,7 @@ double Sight2D::open_width_in_range(const Vec2& a, const Vec2& b, const EdgeTurn
   const double blur = 0x1p-48 * (1.0 + std::fabs(middle) + half);
   const double t0 = middle - half - blur, t1 = middle + half + blur;
   if (t0 >= 1.0 || t1 <= 0.0) return 0.0;
-  return open_width(t0 > 0.0 ? a + t0 * d : a, t1 < 1.0 ? a + t1 * d : b, turn, enough);
+  return open_width(t0 > 0.0 ? a + t0 * d : a, t1 < 1.0 ? a + t1 * d : b, left, line, enough);
 }
 
 bool Sight2D::hide_behind_edge(const Bearing& from, const Bearing& to, const EdgeLine& line, std::uint32_t owner) {

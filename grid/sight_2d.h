@@ -39,9 +39,9 @@ class Sight2D {
 
   /// Width in which an edge between two directions is not behind the buffer. Stops adding beyond `enough`.
   double open_width(const Bearing& from, const Bearing& to, const EdgeLine& line, double enough) const;
-  /// The same for an edge from a to b (facing left or right), or its part within the range.
-  double open_width(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const;
-  double open_width_in_range(const Vec2& a, const Vec2& b, const EdgeTurn& turn, double enough) const;
+  /// The same for an edge from a to b, `left` or right, or its part within the range.
+  double open_width(const Vec2& a, const Vec2& b, bool left, const EdgeLine& line, double enough) const;
+  double open_width_in_range(const Vec2& a, const Vec2& b, bool left, const EdgeLine& line, double enough) const;
   /// Enters an edge. Whether it is the nearest anywhere.
   bool hide_behind_edge(const Bearing& from, const Bearing& to, const EdgeLine& line, std::uint32_t owner);
 

@@ -59,11 +59,6 @@ bool Silhouettes2D::enter_outline(Candidate& c, bool occluder) {
   return c.seen || outline_open(back, false);
 }
 
-bool Silhouettes2D::free_at(std::size_t point) const {
-  if (facing_.size() < points_.size()) return false;  // a chain: rooms are built of them
-  return facing_[point] != facing_[point == 0 ? facing_.size() - 1 : point - 1];
-}
-
 // Neighbouring edges share the direction of their common point, unless the outline turns back there.
 bool Silhouettes2D::hide_behind_outline(Facing back, std::uint32_t owner) {
   bool nearest = false, known = false;
@@ -74,14 +69,14 @@ bool Silhouettes2D::hide_behind_outline(Facing back, std::uint32_t owner) {
       continue;
     }
     const double way = facing_[i] == Facing::left ? 1.0 : -1.0;
-    const bool begin_free = free_at(i), end_free = free_at(after(i));
-    const Vec2 a = begin_free ? sight_.drawn_back(points_[i], way) : points_[i];
-    const Vec2 b = end_free ? sight_.drawn_back(points_[after(i)], -way) : points_[after(i)];
-    const Bearing begin = known && !begin_free ? end : bearing_of(a);
+    const bool from_free = begin_free(i), to_free = end_free(i);
+    const Vec2 a = from_free ? sight_.drawn_back(points_[i], way) : points_[i];
+    const Vec2 b = to_free ? sight_.drawn_back(points_[i + 1], -way) : points_[i + 1];
+    const Bearing begin = known && !from_free ? end : bearing_of(a);
     end = bearing_of(b);
-    known = !end_free;
-    if ((begin_free || end_free) && !(way * cross2(a, b) > 0.0)) continue;  // narrower than that: turned round
-    const EdgeLine line = turn_of(i).line();
+    known = !to_free;
+    if ((from_free || to_free) && !(way * cross2(a, b) > 0.0)) continue;  // narrower than that: turned round
+    const EdgeLine line = line_of(i);
     nearest = sight_.hide_behind_edge(way > 0.0 ? begin : end, way > 0.0 ? end : begin, line, owner) || nearest;
   }
   return nearest;
@@ -97,14 +92,14 @@ bool Silhouettes2D::hide_behind_parts(const Outline2D& outline, std::uint32_t ow
 
 // A part's ends lie on its edge but for roundings of the edge's points, which parts keep far from everything else.
 bool Silhouettes2D::hide_behind_part(const Outline2D::Part& part, std::uint32_t owner) {
-  const Vec2 &a = points_[part.edge], &b = points_[after(part.edge)];
+  const Vec2 &a = points_[part.edge], &b = points_[part.edge + 1];
   const double way = facing_[part.edge] == Facing::left ? 1.0 : -1.0;
   Vec2 p = part.t0 > 0.0 ? a + part.t0 * (b - a) : a, q = part.t1 < 1.0 ? a + part.t1 * (b - a) : b;
-  if (part.t0 == 0.0 && free_at(part.edge)) p = sight_.drawn_back(p, way);
-  if (part.t1 == 1.0 && free_at(after(part.edge))) q = sight_.drawn_back(q, -way);
+  if (part.t0 == 0.0 && begin_free(part.edge)) p = sight_.drawn_back(p, way);
+  if (part.t1 == 1.0 && end_free(part.edge)) q = sight_.drawn_back(q, -way);
   if (!(way * cross2(p, q) > 0.0)) return false;  // narrower than that: turned round
   if (way < 0.0) std::swap(p, q);
-  return sight_.hide_behind_edge(bearing_of(p), bearing_of(q), turn_of(part.edge).line(), owner);
+  return sight_.hide_behind_edge(bearing_of(p), bearing_of(q), line_of(part.edge), owner);
 }
 
 void Silhouettes2D::finish(std::vector<Slot>& visible) {
@@ -130,10 +125,12 @@ bool Silhouettes2D::outline_open(Facing back, bool straddles) const {
   double width = 0.0;
   for (std::size_t i = 0; i < facing_.size(); ++i) {
     if (skipped(facing_[i], back)) continue;
-    const Vec2 &a = points_[i], &b = points_[after(i)];
-    const EdgeTurn e = turn_of(i);
+    const Vec2 &a = points_[i], &b = points_[i + 1];
+    const EdgeLine line = line_of(i);
+    const bool left = facing_[i] == Facing::left;
     const double enough = least_width - width;
-    width += straddles ? sight_.open_width_in_range(a, b, e, enough) : sight_.open_width(a, b, e, enough);
+    width +=
+        straddles ? sight_.open_width_in_range(a, b, left, line, enough) : sight_.open_width(a, b, left, line, enough);
     if (width > least_width) return true;
   }
   return false;
@@ -141,12 +138,23 @@ bool Silhouettes2D::outline_open(Facing back, bool straddles) const {
 
 bool Silhouettes2D::face_all(const Placed2D& object) {
   const std::size_t count = object.outline->points().size(), edges = object.outline->edges();
-  points_.resize(count);
+  closed_ = object.outline->closed();
+  points_.resize(edges + 1);
   facing_.resize(edges);
-  for (std::size_t i = 0; i < count; ++i) points_[i] = object.points[i] - sight_.eye();
+  const Vec2 eye = sight_.eye();
+  for (std::size_t i = 0; i < count; ++i) points_[i] = object.points[i] - eye;
+  if (closed_) points_[count] = points_[0];
+  const double blur = sight_.blur();
+  bool easy = true;
+  for (std::size_t i = 0; i < edges; ++i) {
+    const EasyEdge edge = easy_edge(points_[i], points_[i + 1], blur);
+    facing_[i] = edge.c > 0.0 ? Facing::left : Facing::right;
+    easy = easy && edge.easy;
+  }
+  if (easy) return true;
   bool clear = true;
   for (std::size_t i = 0; i < edges; ++i) {
-    facing_[i] = facing_of_edge(points_[i], points_[after(i)], sight_.blur());
+    facing_[i] = turn_of_edge(points_[i], points_[i + 1], blur).facing;
     clear = clear && facing_[i] != Facing::touches;
   }
   return clear;

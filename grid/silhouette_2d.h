@@ -72,19 +72,24 @@ class Silhouettes2D {
     if (!outline.clean() || !outline.closed()) return Facing::radial;
     return outline.counter_clockwise() ? Facing::left : Facing::right;
   }
-  EdgeTurn turn_of(std::size_t edge) const { return turn_of_edge(points_[edge], points_[after(edge)], sight_.blur()); }
   static bool skipped(Facing facing, Facing back) { return facing > Facing::right || facing == back; }
-  std::size_t after(std::size_t point) const { return point + 1 < points_.size() ? point + 1 : 0; }
-  /// Whether an outline turns back at a point, which may be its end; edge `point` begins there.
-  bool free_at(std::size_t point) const;
+  /// Whether the outline turns back where an edge begins or ends: there it is free.
+  bool begin_free(std::size_t edge) const {
+    return closed_ && facing_[edge] != facing_[edge == 0 ? facing_.size() - 1 : edge - 1];
+  }
+  bool end_free(std::size_t edge) const {
+    return closed_ && facing_[edge] != facing_[edge + 1 < facing_.size() ? edge + 1 : 0];
+  }
+  EdgeLine line_of(std::size_t edge) const { return line_of_edge(points_[edge], points_[edge + 1], sight_.blur()); }
   double magnitude(const Placed2D& object) const;
 
   const ViewVolume* volume_ = nullptr;
   Sight2D sight_;
   std::vector<Candidate> candidates_;
   // Of the object in hand, relative to the viewer:
-  std::vector<Vec2> points_;
+  std::vector<Vec2> points_;    // of a closed outline with the first once more at the end
   std::vector<Facing> facing_;  // of the edges
+  bool closed_ = false;
 };
 
 }  // namespace gridcull

@@ -23,6 +23,13 @@ std::unique_ptr<Culler> make_voxel(const MethodOptions& o) {
       GridOptions{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads, o.max_memory});
 }
 
+std::unique_ptr<Culler> make_silhouette(const MethodOptions& o) {
+  GridOptions options{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads, o.max_memory};
+  options.hiding = Hiding::silhouette;
+  options.resolution = o.resolution;
+  return std::make_unique<GridEngine>(options);
+}
+
 std::unique_ptr<Culler> make_frustum(const MethodOptions& o) { return make_frustum_culler(o.dimension); }
 
 std::unique_ptr<Culler> make_pairwise(const MethodOptions& o) {
@@ -39,7 +46,10 @@ std::unique_ptr<Culler> make_depth(const MethodOptions& o) {
 
 std::span<const MethodEntry> method_catalog() {
   static const std::array entries{
-      MethodEntry{grid_engine_info(), "--cell C, --tbv off|solid|hollow, --threads N, --max-memory BYTES", &make_voxel},
+      MethodEntry{grid_engine_info(Hiding::voxel), "--cell C, --tbv off|solid|hollow, --threads N, --max-memory BYTES",
+                  &make_voxel},
+      MethodEntry{grid_engine_info(Hiding::silhouette),
+                  "--resolution R (3D), --cell C, --tbv off|solid, --threads N, --max-memory BYTES", &make_silhouette},
       MethodEntry{frustum_culler_info(), "", &make_frustum},
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
       MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72)", &make_depth}};

@@ -1,0 +1,316 @@
+// Method `silhouette` in 3D.
+//
+// Claim: the answer holds every visible object X. Let p be a visible point of X: in the view volume, and the open
+// segment v-p meets the interior of no occluder but X. Suppose that X was not reported. Then one of these tests failed
+// for the pixel of p's direction: a node that holds X (its box), X's volume (a ball), X as a whole or X's slice that
+// holds the first point q of X on the ray v-p (which is visible too; slices cover X's front). Each asks, at a key no
+// greater than |q|, whether any pixel that it touches is open; the pixel of p's direction is touched (tests are
+// over-estimates), so it was covered: some occluder's cone holds the whole pixel (occluders are under-estimates), and
+// its key lies below the test's (front_queue.h). Its ray in p's direction therefore meets the interior of that
+// occluder Y before q. Y was found visible before it was pushed and is neither what the viewer rides on nor around the
+// viewpoint. Y = X is impossible, X would have been reported. So v-p meets the interior of another occluder: p was
+// not visible. Pixels outside the view volume's sides start covered; p is inside them.
+// Objects nearer than the near plane are entered as occluders too, though not reported; nothing beyond the range can
+// hide what is within it.
+//
+// Cost: nodes, objects and pixels in front of what is visible; what is behind covered pixels is met as nodes only.
+// The order inside a bucket and the shape of the index change no answer: a test depends on the occluders of lower
+// buckets only, and those on tests.
+#include "gridcull/grid/silhouette_3d.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "gridcull/grid/ball_sections.h"
+
+namespace gridcull {
+namespace {
+
+double magnitude(const Vec3& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
+
+/// Distances are rounded three or four times, each by at most 2^-52 of the coordinates that went in.
+constexpr double rounding = 0x1p-46;
+
+std::uint64_t packed(const LooseIndex::NodeId& id) {
+  return static_cast<std::uint64_t>(id.level) << 60 | static_cast<std::uint64_t>(id.x) << 40 |
+         static_cast<std::uint64_t>(id.y) << 20 | static_cast<std::uint64_t>(id.z);
+}
+
+LooseIndex::NodeId unpacked(std::uint64_t p) {
+  constexpr std::uint64_t mask = (1 << 20) - 1;
+  return {static_cast<int>(p >> 60), static_cast<std::int32_t>(p >> 40 & mask),
+          static_cast<std::int32_t>(p >> 20 & mask), static_cast<std::int32_t>(p & mask)};
+}
+
+double distance_to_box(const Vec3& low, const Vec3& high) {
+  const auto gap = [&](int k) { return std::max({low[k], -high[k], 0.0}); };
+  const double x = gap(0), y = gap(1), z = gap(2);
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+double farthest_of_box(const Vec3& low, const Vec3& high) {
+  const auto reach = [&](int k) { return std::max(std::fabs(low[k]), std::fabs(high[k])); };
+  const double x = reach(0), y = reach(1), z = reach(2);
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+}  // namespace
+
+void Silhouette3D::run(GridWorld& world, const View& view, Answer& answer, ViewResult& result, DrawSink*) {
+  const auto start = std::chrono::steady_clock::now();
+  const ViewVolume volume(view, world.lattice.dimension());
+  world_ = &world;
+  shapes_ = world.silhouettes.get();
+  volume_ = &volume;
+  answer_ = &answer;
+  result_ = &result;
+  result.seen.clear();
+  result.revealed.clear();
+  result.occlude_us = 0.0;  // goes on inside the traversal
+  answer.viewer = view.viewer;
+  answer.visible.clear();
+  answer.work = {};
+  begin(view);
+  walk();
+  answer.work.rasters = mask_.rows();
+  const auto walked = std::chrono::steady_clock::now();
+  ids_.list(world.objects, result.seen, answer.visible);
+  const auto end = std::chrono::steady_clock::now();
+  result.traverse_us = std::chrono::duration<double, std::micro>(walked - start).count();
+  result.collect_us = std::chrono::duration<double, std::micro>(end - walked).count();
+}
+
+void Silhouette3D::begin(const View& view) {
+  GridWorld& world = *world_;
+  rides_ = view.rides == no_id ? none : world.objects.find(view.rides);
+  const Vec3& apex = volume_->apex();
+  apex_size_ = magnitude(apex);
+  limit_ = volume_->range() * (1.0 + 1e-12);
+  mask_.begin(*volume_, pixels());
+  mask_.clear_counts();
+  occluders_.clear();
+  rays_.clear();
+  sliced_.clear();
+  const Bounds box = world.lattice.box();
+  const double far = std::min(limit_, farthest_of_box(box.min - apex, box.max - apex));
+  queue_.begin(std::min(far, distance_to_box(box.min - apex, box.max - apex)), far);
+  const int top = shapes_->index.top();
+  for (int root = 0; root < 8; ++root) {
+    const LooseIndex::NodeId id{top, root & 1, root >> 1 & 1, root >> 2};
+    if (shapes_->index.exists(id) && shapes_->index.node(id).below > 0) push_node(id);
+  }
+  for (const Slot slot : world.outside) push_entry(slot);
+}
+
+int Silhouette3D::pixels() const {
+  if (resolution_ > 0) return (resolution_ + 7) / 8 * 8;
+  return volume_->all_round() ? 128 : 256;
+}
+
+void Silhouette3D::walk() {
+  FrontQueue::Item item;
+  while (!mask_.full() && queue_.pop(item)) {
+    switch (item.kind) {
+      case FrontQueue::Kind::node: open_node(item.what); break;
+      case FrontQueue::Kind::volume: look_at_volume(static_cast<Slot>(item.what)); break;
+      case FrontQueue::Kind::object: look(static_cast<Slot>(item.what)); break;
+      case FrontQueue::Kind::slice: look_at_slices(sliced_[item.what]); break;
+      case FrontQueue::Kind::occluder: enter(occluders_[item.what]); break;
+    }
+  }
+}
+
+void Silhouette3D::push_node(const LooseIndex::NodeId& id) {
+  const Bounds box = shapes_->index.loose_box(id);
+  const Vec3& apex = volume_->apex();
+  const double key = distance_to_box(box.min - apex, box.max - apex) -
+                     rounding * (apex_size_ + magnitude(box.min) + magnitude(box.max));
+  if (key <= limit_) queue_.push(FrontQueue::Kind::node, key, packed(id));
+}
+
+void Silhouette3D::open_node(std::uint64_t what) {
+  const LooseIndex& index = shapes_->index;
+  const LooseIndex::NodeId id = unpacked(what);
+  const Bounds box = index.loose_box(id);
+  if (!mask_.open_box(box.min - volume_->apex(), box.max - volume_->apex())) {
+    ++answer_->work.cells_hidden;
+    return;
+  }
+  ++answer_->work.cells_visited;
+  for (Slot slot = index.node(id).first; slot != none; slot = index.next(slot)) push_entry(slot);
+  if (id.level == 0) return;
+  for (int child = 0; child < 8; ++child) {
+    const LooseIndex::NodeId below{id.level - 1, 2 * id.x + (child & 1), 2 * id.y + (child >> 1 & 1),
+                                   2 * id.z + (child >> 2)};
+    if (index.exists(below) && index.node(below).below > 0) push_node(below);
+  }
+}
+
+double Silhouette3D::nearest_of(const LooseBall& ball) const {
+  return glm::length(ball.centre - volume_->apex()) - ball.radius -
+         rounding * (apex_size_ + magnitude(ball.centre) + ball.radius);
+}
+
+void Silhouette3D::push_entry(Slot slot) {
+  if (slot == rides_) return;
+  const bool hidden = world_->objects[slot].place == Place::hidden;
+  push(hidden ? FrontQueue::Kind::volume : FrontQueue::Kind::object, slot, shapes_->index.ball(slot));
+}
+
+void Silhouette3D::push(FrontQueue::Kind kind, Slot slot, const LooseBall& ball) {
+  const double key = nearest_of(ball);
+  if (key <= limit_) queue_.push(kind, key, slot);
+}
+
+// A volume that is open somewhere is given up: its object is read and looked at like any other, when its own depth
+// has come, so that answers do not depend on who has a volume.
+void Silhouette3D::look_at_volume(Slot slot) {
+  ++answer_->work.tbv_tests;
+  const LooseBall& ball = shapes_->index.ball(slot);
+  const Vec3 centre = ball.centre - volume_->apex();
+  if (!mask_.open_ball(centre, ball.radius + rounding * (apex_size_ + magnitude(ball.centre)))) return;
+  ++answer_->work.tbv_revealed;
+  result_->revealed.push_back(slot);
+  push(FrontQueue::Kind::object, slot, shapes_->ball_at(slot, world_->read(slot)));
+}
+
+void Silhouette3D::look(Slot slot) {
+  const LooseBall ball = shapes_->ball_at(slot, world_->objects[slot].pose);
+  ++answer_->work.object_tests;
+  if (nearest_of(ball) <= 0.0 && holds_viewpoint(slot)) {
+    result_->seen.push_back(slot);
+    return;
+  }
+  Sliced object{slot, 0, 0.0, 0.0};
+  if (!open_whole(slot, ball, object)) return;
+  if (object.farthest > object.nearest) {
+    look_at_slices(object);
+  } else {
+    see(slot);
+  }
+}
+
+bool Silhouette3D::holds_viewpoint(Slot slot) const {
+  const ObjectState& state = world_->objects[slot];
+  return interior_holds(state.shape->shape(), state.pose, volume_->apex());
+}
+
+SightFrame Silhouette3D::sight(Slot slot) const {
+  const Pose& pose = world_->objects[slot].pose;
+  return sight_frame(pose, rotation_of(pose.orientation), volume_->apex());
+}
+
+bool Silhouette3D::open_whole(Slot slot, const LooseBall& ball, Sliced& object) {
+  const Vec3 centre = ball.centre - volume_->apex();
+  const SilhouetteWorld::Solid* solid = shapes_->solid(slot);
+  // The ball of a solid is only around it: a first, cheap test.
+  const double radius = solid == nullptr ? ball.radius : ball.radius + rounding * (apex_size_ + magnitude(ball.centre));
+  if (!mask_.open_ball(centre, radius)) return false;
+  if (solid == nullptr) {
+    const std::array<double, 2> entrance = ball_entrance(glm::length(centre), ball.radius);
+    object.nearest = entrance[0];
+    object.farthest = entrance[1];
+    return true;
+  }
+  const SightFrame frame = sight(slot);
+  if (!outer_outline({solid->outer, frame}, outline_)) return true;
+  object.nearest = outline_.nearest;
+  object.farthest = outline_.farthest;
+  return mask_.open_convex(outline_.rays.data(), outline_.count);
+}
+
+// Slices reach from boundary to boundary; the nearest is looked at at once, each next one when its depth has come and
+// nearer occluders are in the mask.
+void Silhouette3D::look_at_slices(Sliced object) {
+  if (open_slice(object)) {
+    see(object.slot);
+    return;
+  }
+  if (++object.slice == slices) return;
+  const double key = object.nearest + (object.farthest - object.nearest) * object.slice / slices;
+  sliced_.push_back(object);
+  queue_.push(FrontQueue::Kind::slice, key, sliced_.size() - 1);
+}
+
+bool Silhouette3D::open_slice(const Sliced& object) {
+  const double depth = object.farthest - object.nearest;
+  const double near = object.nearest + depth * object.slice / slices;
+  const double far =
+      object.slice + 1 == slices ? object.farthest : object.nearest + depth * (object.slice + 1) / slices;
+  const SilhouetteWorld::Solid* solid = shapes_->solid(object.slot);
+  if (solid != nullptr) {
+    const SightFrame frame = sight(object.slot);
+    switch (outer_slice({solid->outer, frame}, near, far, outline_)) {
+      case Slice::empty: return false;
+      case Slice::unknown: return true;
+      case Slice::outline: return mask_.open_convex(outline_.rays.data(), outline_.count);
+    }
+  }
+  const ObjectState& state = world_->objects[object.slot];
+  const Vec3 centre = state.pose.position - volume_->apex();
+  const double radius = ball_slice_radius(glm::length(centre), std::get<Sphere>(state.shape->shape()).radius, far);
+  return radius > 0.0 && mask_.open_ball(centre, radius);
+}
+
+void Silhouette3D::see(Slot slot) {
+  const ObjectState& state = world_->objects[slot];
+  if (in_view(slot)) result_->seen.push_back(slot);
+  if (state.occluder) hide_behind(slot);
+}
+
+bool Silhouette3D::in_view(Slot slot) const {
+  if (volume_->all_round() && !std::isfinite(volume_->range())) return true;
+  const ObjectState& state = world_->objects[slot];
+  if (!volume_->may_touch_ball(state.pose.position, state.reach)) return false;
+  return state.round || volume_->may_touch(state.shape->shape(), state.pose);
+}
+
+void Silhouette3D::hide_behind(Slot slot) {
+  ++answer_->work.occluders;
+  const ObjectState& state = world_->objects[slot];
+  if (shapes_->solid(slot) != nullptr) {
+    hide_behind_pieces(slot);
+  } else {
+    hide_behind_ball({state.pose.position, std::get<Sphere>(state.shape->shape()).radius});
+  }
+}
+
+void Silhouette3D::hide_behind_ball(const LooseBall& ball) {
+  const Vec3 centre = ball.centre - volume_->apex();
+  std::array<BallSection, ball_fractions.size()> sections;
+  const int count = ball_sections(glm::length(centre), ball.radius, ball_fractions, sections);
+  for (int i = 0; i < count; ++i) {
+    const BallSection& section = sections[static_cast<std::size_t>(i)];
+    occluders_.push_back({centre, section.radius, 0, 0});
+    queue_.push(FrontQueue::Kind::occluder, section.key, occluders_.size() - 1);
+  }
+}
+
+void Silhouette3D::hide_behind_pieces(Slot slot) {
+  const SightFrame frame = sight(slot);
+  for (const ConvexPiece& piece : shapes_->solid(slot)->pieces.pieces) {
+    if (silhouette({piece, frame}, outline_)) push_loop(outline_, outline_.farthest);
+  }
+}
+
+void Silhouette3D::push_loop(const Outline& loop, double key) {
+  occluders_.push_back({{}, 0.0, static_cast<std::uint32_t>(rays_.size()), static_cast<std::uint32_t>(loop.count)});
+  rays_.insert(rays_.end(), loop.rays.begin(), loop.rays.begin() + loop.count);
+  queue_.push(FrontQueue::Kind::occluder, key, occluders_.size() - 1);
+}
+
+void Silhouette3D::enter(const Occluder& occluder) {
+  if (occluder.radius > 0.0) {
+    mask_.cover_ball(occluder.centre, occluder.radius);
+  } else {
+    mask_.cover_convex(&rays_[occluder.rays], static_cast<int>(occluder.count));
+  }
+}
+
+std::uint64_t Silhouette3D::bytes() const {
+  return mask_.bytes() + queue_.bytes() + occluders_.capacity() * sizeof(Occluder) + rays_.capacity() * sizeof(Vec3) +
+         sliced_.capacity() * sizeof(Sliced);
+}
+
+}  // namespace gridcull

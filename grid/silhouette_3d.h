@@ -1,0 +1,86 @@
+// Answers one view by method `silhouette` in 3D (DESIGN section 5): a front-to-back walk over the loose index, in
+// which the silhouettes of what was found visible cover the directions behind them.
+#pragma once
+
+#include <vector>
+
+#include "gridcull/core/view_volume.h"
+#include "gridcull/grid/answer_ids.h"
+#include "gridcull/grid/coverage_mask.h"
+#include "gridcull/grid/front_queue.h"
+#include "gridcull/grid/grid_world.h"
+#include "gridcull/grid/outer_outline.h"
+#include "gridcull/grid/view_answerer.h"
+
+namespace gridcull {
+
+class Silhouette3D final : public ViewAnswerer {
+ public:
+  /// `resolution`: pixels along the longer side of the mask; 0: chosen per view.
+  Silhouette3D(int resolution, InstructionSet isa) : resolution_(resolution), mask_(isa) {}
+
+  void run(GridWorld& world, const View& view, Answer& answer, ViewResult& result, DrawSink* draw) override;
+  std::uint64_t bytes() const override;
+
+ private:
+  /// What waits to enter the mask, relative to the viewpoint: the tangent cone of a ball, or a loop of rays.
+  struct Occluder {
+    Vec3 centre;
+    double radius;       ///< 0: a loop
+    std::uint32_t rays;  ///< first in rays_
+    std::uint32_t count;
+  };
+  /// An object that looked visible as a whole and is tested again in slices of its depth.
+  struct Sliced {
+    Slot slot;
+    std::uint32_t slice;
+    double nearest, farthest;  ///< of its front; metres from the viewpoint
+  };
+  static constexpr std::uint32_t slices = 3;
+
+  void begin(const View& view);
+  /// The mask's resolution for this view.
+  int pixels() const;
+  void walk();
+  void push_node(const LooseIndex::NodeId& id);
+  void open_node(std::uint64_t packed);
+  void push_entry(Slot slot);
+  void push(FrontQueue::Kind kind, Slot slot, const LooseBall& ball);
+  void look_at_volume(Slot slot);
+  /// First test: the object as a whole.
+  void look(Slot slot);
+  bool holds_viewpoint(Slot slot) const;
+  bool open_whole(Slot slot, const LooseBall& ball, Sliced& object);
+  /// Second test: slice after slice, from the nearest on.
+  void look_at_slices(Sliced object);
+  bool open_slice(const Sliced& object);
+  void see(Slot slot);
+  void hide_behind(Slot slot);
+  void hide_behind_ball(const LooseBall& ball);
+  void hide_behind_pieces(Slot slot);
+  void push_loop(const Outline& loop, double key);
+  void enter(const Occluder& occluder);
+  bool in_view(Slot slot) const;
+  /// A lower bound of the distance from the viewpoint to the ball's points.
+  double nearest_of(const LooseBall& ball) const;
+  SightFrame sight(Slot slot) const;
+
+  int resolution_;
+  CoverageMask mask_;
+  FrontQueue queue_;
+  GridWorld* world_ = nullptr;
+  const SilhouetteWorld* shapes_ = nullptr;
+  const ViewVolume* volume_ = nullptr;
+  Answer* answer_ = nullptr;
+  ViewResult* result_ = nullptr;
+  Slot rides_ = none;
+  double limit_ = 0.0;      // nothing whose nearest point is farther can be reported
+  double apex_size_ = 0.0;  // sum of its coordinates' magnitudes
+  std::vector<Occluder> occluders_;
+  std::vector<Vec3> rays_;
+  std::vector<Sliced> sliced_;
+  Outline outline_;
+  AnswerIds ids_;
+};
+
+}  // namespace gridcull

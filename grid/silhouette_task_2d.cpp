@@ -1,0 +1,67 @@
+// Claim: the answer holds every visible object X. If X is placed, its ball hangs in the index or in the list of what
+// does not fit there, and if X was not met it is hidden (silhouette_walk_2d.h); if it was met, it was entered and
+// the claim of silhouette_2d.h holds. If X has a temporal bounding volume, the same holds for the volume, which holds
+// X: one that is not wholly hidden is revealed, and X is entered as it stands. What the viewer rides on is left out
+// altogether.
+#include "gridcull/grid/silhouette_task_2d.h"
+
+#include <chrono>
+
+namespace gridcull {
+
+void SilhouetteTask2D::run(GridWorld& world, const View& view, Answer& answer, ViewResult& result, DrawSink*) {
+  const auto start = std::chrono::steady_clock::now();
+  const ViewVolume volume(view, 2);
+  world_ = &world;
+  answer_ = &answer;
+  result_ = &result;
+  result.seen.clear();
+  result.revealed.clear();
+  result.occlude_us = 0.0;  // goes on inside the traversal
+  answer.viewer = view.viewer;
+  answer.visible.clear();
+  answer.work = {};
+  rides_ = view.rides == no_id ? none : world.objects.find(view.rides);
+  silhouettes_.begin(volume);
+  for (const Slot slot : world.outside) meet(slot);
+  walk_.run(world.silhouettes->index, silhouettes_, answer.work, [this](Slot slot) { meet(slot); });
+  const auto walked = std::chrono::steady_clock::now();
+  answer.work.occluders = silhouettes_.candidates();
+  answer.work.rasters = silhouettes_.sight().buffer().size();
+  silhouettes_.finish(result.seen);
+  ids_.list(world.objects, result.seen, answer.visible);
+  const auto end = std::chrono::steady_clock::now();
+  result.traverse_us = std::chrono::duration<double, std::micro>(walked - start).count();
+  result.collect_us = std::chrono::duration<double, std::micro>(end - walked).count();
+}
+
+void SilhouetteTask2D::meet(Slot slot) {
+  if (slot == rides_) return;
+  const SilhouetteWorld& shapes = *world_->silhouettes;
+  const ObjectState& state = world_->objects[slot];
+  if (state.place != Place::hidden) {
+    silhouettes_.enter(slot, shapes.outlines.at(slot), state.occluder);
+    return;
+  }
+  ++answer_->work.tbv_tests;
+  const LooseBall& ball = shapes.index.ball(slot);
+  if (!silhouettes_.shows_disc(Vec2(ball.centre), ball.radius)) return;
+  ++answer_->work.tbv_revealed;
+  const Pose pose = world_->read(slot);
+  std::vector<Vec2>& points = points_of(result_->revealed.size());
+  result_->revealed.push_back(slot);
+  silhouettes_.enter(slot, shapes.outlines.place(slot, pose, points), state.occluder);
+}
+
+std::vector<Vec2>& SilhouetteTask2D::points_of(std::size_t revealed) {
+  if (revealed == points_.size()) points_.emplace_back();
+  return points_[revealed];
+}
+
+std::uint64_t SilhouetteTask2D::bytes() const {
+  std::uint64_t bytes = silhouettes_.bytes() + walk_.bytes();
+  for (const auto& points : points_) bytes += sizeof(points) + points.capacity() * sizeof(Vec2);
+  return bytes;
+}
+
+}  // namespace gridcull

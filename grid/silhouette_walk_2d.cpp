@@ -1,0 +1,99 @@
+#include "gridcull/grid/silhouette_walk_2d.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridcull {
+namespace {
+
+Vec2 middle_of_child(const Vec2& middle, double side, int child) {
+  const double step = 0.25 * side;
+  return {middle.x + ((child & 1) != 0 ? step : -step), middle.y + ((child & 2) != 0 ? step : -step)};
+}
+
+LooseIndex::NodeId child_of(const LooseIndex::NodeId& id, int child) {
+  return {id.level - 1, 2 * id.x + (child & 1), 2 * id.y + (child >> 1), 0};
+}
+
+}  // namespace
+
+// Boxes of lower nodes are worked out from their parents', a rounding a level. Each is far below the slack that
+// loose_box() adds, and that is doubled here.
+void SilhouetteWalk2D::begin(const LooseIndex& index, const Sight2D& sight) {
+  index_ = &index;
+  sight_ = &sight;
+  spots_.clear();
+  const double side = index.side(index.top());
+  double far = 0.0;
+  std::uint32_t below[4] = {};
+  for (int i = 0; i < 4; ++i) {
+    const LooseIndex::NodeId id{index.top(), i & 1, i >> 1, 0};
+    if (!index.exists(id)) continue;
+    const Bounds box = index.loose_box(id);
+    slack_ = 2.0 * std::max(0.0, 0.5 * (box.max.x - box.min.x) - side);
+    const Vec2 d = glm::max(glm::abs(Vec2(box.min) - sight.eye()), glm::abs(Vec2(box.max) - sight.eye()));
+    far = std::max(far, glm::length(d));
+    below[spots_.size()] = index.node(id).below;
+    spots_.push_back({id, Vec2(box.centre())});
+  }
+  limit_ = sight.range() * (1.0 + 1e-9) + sight.blur();
+  queue_.begin(std::min(far, sight.range()));
+  for (std::size_t i = 0, tops = spots_.size(); i < tops; ++i) take(Spot(spots_[i]), below[i]);
+}
+
+void SilhouetteWalk2D::take(const Spot& spot, std::uint32_t below) {
+  const double half = reach(spot.id.level);
+  const Vec2 d = glm::max(glm::abs(spot.middle - sight_->eye()) - half, Vec2(0.0));
+  const double square = glm::dot(d, d);
+  if (square > limit_ * limit_) return;
+  if (below <= crowd) {
+    gather(spot.id);
+  } else {
+    queue_.push(std::sqrt(square), node_bit + static_cast<std::uint32_t>(spots_.size()));
+    spots_.push_back(spot);
+  }
+}
+
+void SilhouetteWalk2D::open(std::uint32_t at, const Silhouettes2D& silhouettes, WorkCounts& work) {
+  const Spot spot = spots_[at];
+  const Vec2 half(reach(spot.id.level));
+  if (!silhouettes.shows_box(spot.middle - half, spot.middle + half)) {
+    ++work.cells_hidden;
+    return;
+  }
+  ++work.cells_visited;
+  const LooseIndex::Node& node = index_->node(spot.id);
+  for (Slot slot = node.first; slot != none; slot = index_->next(slot)) push(slot);
+  if (spot.id.level == 0) return;
+  const double side = index_->side(spot.id.level);
+  for (int i = 0; i < 4; ++i) {
+    const LooseIndex::NodeId child = child_of(spot.id, i);
+    const std::uint32_t below = index_->node(child).below;  // 0 where there is no such child
+    if (below != 0) take({child, middle_of_child(spot.middle, side, i)}, below);
+  }
+}
+
+void SilhouetteWalk2D::gather(const LooseIndex::NodeId& id) {
+  const LooseIndex::Node& node = index_->node(id);
+  std::uint32_t rest = node.below;
+  for (Slot slot = node.first; slot != none; slot = index_->next(slot)) {
+    push(slot);
+    --rest;
+  }
+  for (int i = 0; i < 4 && rest != 0; ++i) {
+    const LooseIndex::NodeId child = child_of(id, i);
+    const std::uint32_t below = index_->node(child).below;  // 0 where there is no such child
+    if (below != 0) gather(child);
+    rest -= below;
+  }
+}
+
+void SilhouetteWalk2D::push(Slot slot) {
+  const LooseBall& ball = index_->ball(slot);
+  const Vec2 d = Vec2(ball.centre) - sight_->eye();
+  // As rounded: what is a little beyond the range is sorted out by whoever tests the object.
+  const double square = glm::dot(d, d), most = limit_ + ball.radius;
+  if (square <= most * most) queue_.push(std::sqrt(square) - ball.radius, slot);
+}
+
+}  // namespace gridcull

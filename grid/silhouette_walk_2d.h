@@ -1,0 +1,65 @@
+// The walk of method `silhouette` in 2D over the loose index: what hangs in it by its least distance from the viewer,
+// nodes that are wholly behind the slope buffer skipped with all below (DESIGN sections 5.2, 5.6).
+//
+// Claim: every ball that `meet` is not called for is hidden or beyond the range. It hangs in a node, and it or the
+// box of that node or of one above was found beyond the range, or behind the buffer as it was then, which is final
+// (silhouette_2d.h). The order is a matter of cost only.
+// Cost: a test of a node for each `crowd` entries that are not skipped, some nanoseconds an entry for the queue.
+#pragma once
+
+#include <vector>
+
+#include "gridcull/core/culler.h"
+#include "gridcull/grid/loose_index.h"
+#include "gridcull/grid/near_first.h"
+#include "gridcull/grid/silhouette_2d.h"
+
+namespace gridcull {
+
+class SilhouetteWalk2D {
+ public:
+  /// Calls meet(slot) about front to back; it may enter objects into `silhouettes`.
+  template <class Meet>
+  void run(const LooseIndex& index, Silhouettes2D& silhouettes, WorkCounts& work, Meet&& meet) {
+    begin(index, silhouettes.sight());
+    for (std::uint32_t what = 0; queue_.pop(what);) {
+      if (what < node_bit) {
+        ++work.object_tests;
+        meet(Slot{what});
+      } else {
+        open(what - node_bit, silhouettes, work);
+      }
+    }
+  }
+
+  std::uint64_t bytes() const { return queue_.bytes() + spots_.capacity() * sizeof(Spot); }
+
+ private:
+  /// A node and the middle of its box.
+  struct Spot {
+    LooseIndex::NodeId id;
+    Vec2 middle;
+  };
+  /// A test of a node costs about as much as some objects that turn out to be hidden; below this its entries are
+  /// taken at once.
+  static constexpr std::uint32_t crowd = 16;
+  /// In the queue: slots below, places in spots_ from here on.
+  static constexpr std::uint32_t node_bit = std::uint32_t{1} << 31;
+
+  void begin(const LooseIndex& index, const Sight2D& sight);
+  void open(std::uint32_t spot, const Silhouettes2D& silhouettes, WorkCounts& work);
+  void take(const Spot& spot, std::uint32_t below);
+  void gather(const LooseIndex::NodeId& id);
+  void push(Slot slot);
+  /// Half the side of a node's loose box.
+  double reach(int level) const { return index_->side(level) + slack_; }
+
+  const LooseIndex* index_ = nullptr;
+  const Sight2D* sight_ = nullptr;
+  double limit_ = 0.0;  // metres: the range, rounded up
+  double slack_ = 0.0;  // metres: of the loose boxes
+  NearFirst queue_;
+  std::vector<Spot> spots_;
+};
+
+}  // namespace gridcull

@@ -1,0 +1,73 @@
+// The world as method `silhouette` keeps it: every object as one ball in the loose index, beside what hides with it
+// and what it is tested with. Frozen while views are answered, but for the notes of what was seen.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "gridcull/core/object.h"
+#include "gridcull/grid/lattice.h"
+#include "gridcull/grid/loose_index.h"
+#include "gridcull/grid/occluder_pieces.h"
+#include "gridcull/grid/outline_store.h"
+
+namespace gridcull {
+
+class SilhouetteWorld {
+ public:
+  /// `cell`: metres, the side of the finest cells wished for.
+  SilhouetteWorld(int dimension, const Bounds& box, double cell) : index(dimension, box, cell) {}
+
+  void reserve(std::size_t slots);
+  /// Keeps what the shape needs computed once.
+  void add(Slot slot, const Shape& shape);
+  void remove(Slot slot);
+
+  /// The ball (2D: disc) that holds the object's points at this pose.
+  /// Orientations may be off unit length by 1e-9, which scales the object by at most 4e-9: inside the radius. What
+  /// rounding adds is left to whoever measures from a viewpoint, since it grows with the coordinates.
+  LooseBall ball_at(Slot slot, const Pose& pose) const {
+    const Body& body = bodies_[slot];
+    if (body.centred) return {pose.position, body.ball.radius};
+    return {to_world(pose, rotation_of(pose.orientation), body.ball.centre), body.ball.radius};
+  }
+
+  /// Hangs the ball into the index. False when it does not fit there: then the index only remembers it, and the
+  /// object belongs in GridWorld::outside.
+  bool enter(Slot slot, const LooseBall& ball);
+
+  /// enter() for an object that moved a little: false, and nothing done, when more is to do than to move its ball.
+  bool follow(Slot slot, const Pose& pose) { return index.follow(slot, ball_at(slot, pose)); }
+
+  /// Whether somebody looked into a node that the ball reaches in this or the last frame.
+  bool near_seen(const LooseBall& ball, std::uint64_t frame) const;
+
+  /// What a 3D object other than a ball hides with and is tested with; nullptr for balls.
+  struct Solid {
+    OccluderPieces pieces;
+    ConvexPiece outer;
+  };
+  const Solid* solid(Slot slot) const { return bodies_[slot].solid.get(); }
+
+  std::uint64_t bytes() const;
+
+  /// 2D: the object stands at `pose` from now on; its outline's points are placed there.
+  void place(Slot slot, const Pose& pose) {
+    if (index.dimension() == 2) outlines.place(slot, pose);
+  }
+
+  LooseIndex index;
+  OutlineStore outlines;  ///< 2D
+
+ private:
+  /// Smallest ball we know of about the shape, local axes. About the origin it holds at any orientation.
+  struct Body {
+    LooseBall ball{};
+    bool centred = true;
+    std::unique_ptr<Solid> solid{};
+  };
+  std::vector<Body> bodies_;
+};
+
+}  // namespace gridcull
