@@ -1,0 +1,211 @@
+// Silhouettes in 2D without the engine: worlds entered in any order, against scenes made by hand and the exact
+// reference; outlines and their usable parts; the walk over the loose index.
+#include <algorithm>
+#include <deque>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "gridcull/core/exact.h"
+#include "gridcull/grid/outline_store.h"
+#include "gridcull/grid/silhouette_walk_2d.h"
+#include "gridcull/sim/random.h"
+#include "hand_made_scenes.h"
+#include "naive_rays_2d.h"
+#include "random_world.h"
+
+using namespace gridcull;
+using namespace gridcull::test;
+
+namespace {
+
+/// A world placed in a store, slot i for object i.
+OutlineStore store_of(const std::vector<Object>& world) {
+  OutlineStore store;
+  store.reserve(world.size());
+  for (Slot i = 0; i < world.size(); ++i) {
+    store.add(i, world[i].shape);
+    store.place(i, world[i].pose);
+  }
+  return store;
+}
+
+std::vector<ObjectId> listed(const std::vector<Object>& world, Silhouettes2D& silhouettes) {
+  std::vector<Slot> slots;
+  silhouettes.finish(slots);
+  std::vector<ObjectId> ids;
+  for (const Slot slot : slots) ids.push_back(world[slot].id);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+/// Entered in the order given.
+std::vector<ObjectId> seen(const std::vector<Object>& world, const View& view, const std::vector<Slot>& order) {
+  static Silhouettes2D silhouettes;  // reused, as a task does
+  const OutlineStore store = store_of(world);
+  const ViewVolume volume(view, 2);
+  silhouettes.begin(volume);
+  for (const Slot slot : order) {
+    if (world[slot].id != view.rides) silhouettes.enter(slot, store.at(slot), world[slot].occluder);
+  }
+  return listed(world, silhouettes);
+}
+
+std::vector<Slot> any_order(const std::vector<Object>& world, Random& random) {
+  std::vector<Slot> order;
+  for (Slot i = 0; i < world.size(); ++i) order.push_back(i);
+  for (std::size_t i = order.size(); i > 1; --i) {
+    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+  }
+  return order;
+}
+
+bool holds(const std::vector<ObjectId>& ids, ObjectId id) { return std::binary_search(ids.begin(), ids.end(), id); }
+
+struct Tally {
+  std::size_t exact = 0, listed = 0;
+};
+
+void check(const std::vector<Object>& world, const View& view, Random& random, Tally& tally) {
+  const ExactAnswer exact = exact_visible_2d(world, view);
+  const std::vector<ObjectId> ids = seen(world, view, any_order(world, random));
+  for (const ObjectId id : exact.visible) {
+    CAPTURE(id);
+    CHECK(holds(ids, id));
+  }
+  tally.exact += exact.visible.size();
+  tally.listed += ids.size();
+}
+
+std::vector<Object> moved(std::vector<Object> world, View& view, const Vec3& by) {
+  for (Object& o : world) o.pose.position += by;
+  view.pose.position += by;
+  return world;
+}
+
+}  // namespace
+
+TEST_CASE("scenes made by hand: who must be seen is, who must not is not, in any order") {
+  Random random(21);
+  for (const HandMadeScene& scene : hand_made_scenes_2d()) {
+    CAPTURE(scene.name);
+    for (int round = 0; round < 20; ++round) {
+      const std::vector<ObjectId> ids = seen(scene.objects, scene.view, any_order(scene.objects, random));
+      for (const ObjectId id : scene.sees) CHECK(holds(ids, id));
+      for (const ObjectId id : scene.hides) CHECK_FALSE(holds(ids, id));
+    }
+  }
+}
+
+TEST_CASE("random worlds: nobody is missed, hardly anybody too many, near the origin and far away") {
+  Random random(22);
+  for (const double far : {0.0, 1e3, 5e6, 9e8}) {
+    CAPTURE(far);
+    Tally tally;
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+      CAPTURE(seed);
+      const std::vector<Object> world = random_world_2d(seed, static_cast<int>(5 + seed % 50));
+      for (std::uint64_t k = 0; k < 4; ++k) {
+        View view = random_view_2d(4 * seed + k, world);
+        check(moved(world, view, {far * 0.7, -far, 0.0}), view, random, tally);
+      }
+    }
+    MESSAGE("over-estimation " << static_cast<double>(tally.listed) / static_cast<double>(tally.exact));
+    CHECK(tally.listed <= tally.exact * (far < 1e4 ? 1.06 : 1.3));
+  }
+}
+
+TEST_CASE("the property tests' worlds, first frames") {
+  Random random(23);
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+    CAPTURE(seed);
+    const WorldScript script = random_world(2, seed);
+    for (const View& view : script.frames.front().views) check(script.objects, view, random, tally);
+  }
+  CHECK(tally.listed <= tally.exact * 1.06);
+}
+
+TEST_CASE("usable edges: all of a clean outline, none of a folded one, no spike") {
+  const Outline2D box(Rectangle{{4, 2}});
+  CHECK(box.clean());
+  CHECK(box.counter_clockwise());
+  CHECK(box.edges() == 4);
+  CHECK(box.solid(1e9));
+  const Outline2D turned(Polygon{{{0, 0}, {0, 5}, {5, 5}, {5, 0}}});
+  CHECK(turned.clean());
+  CHECK_FALSE(turned.counter_clockwise());
+  const Outline2D flat(Polygon{{{10, -5}, {10, 5}, {10, 0}}});
+  CHECK_FALSE(flat.clean());
+  CHECK(flat.parts().empty());
+  const Outline2D spike(Polygon{{{10, -8}, {12, -8}, {12, -6}, {11, -6}, {11, 8}, {11, -6}, {10, -6}}});
+  CHECK_FALSE(spike.clean());
+  double length = 0.0;
+  for (const Outline2D::Part& part : spike.parts()) {
+    const Vec2 d = spike.points()[(part.edge + 1) % 7] - spike.points()[part.edge];
+    length += (part.t1 - part.t0) * glm::length(d);
+    CHECK(part.edge != 3);
+    CHECK(part.edge != 4);
+  }
+  CHECK(length == doctest::Approx(8.0).epsilon(1e-3));
+  const Outline2D bow(Polygon{{{-4, 4}, {4, -4}, {4, 4}, {-4, -4}}});
+  CHECK_FALSE(bow.clean());
+  CHECK(bow.parts().size() == 6);  // both diagonals are cut in the middle
+  CHECK_FALSE(Outline2D(Polyline{{{0, 0}, {1, 0}}}).closed());
+}
+
+TEST_CASE("an outline's points are the world's") {
+  const Shape shape = Polygon{{{1, 2}, {5, 2}, {5, 2}, {4, 7}}};
+  const Pose pose{{123.4, -567.8, 0.0}, turn_about_z(0.7)};
+  OutlineStore store;
+  store.reserve(1);
+  store.add(0, shape);
+  store.place(0, pose);
+  const std::vector<Vec2> expected = world_outline(shape, pose);
+  REQUIRE(store.at(0).outline->points().size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(store.at(0).points[i] == expected[i]);
+  for (const Vec2& p : expected) CHECK(glm::length(p - store.at(0).centre) <= store.at(0).radius);
+}
+
+TEST_CASE("the walk meets front objects first, skips what is hidden, and finds the same") {
+  Random random(24);
+  std::uint64_t met = 0, all = 0;
+  for (int round = 0; round < 20; ++round) {
+    std::vector<Object> world;
+    for (ObjectId id = 0; id < 600; ++id) {
+      Object o;
+      o.id = id;
+      o.pose = {{random.uniform(0, 200), random.uniform(0, 200), 0.0}, turn_about_z(random.uniform(-3, 3))};
+      o.shape = id % 3 == 0 ? Shape(Disc{random.uniform(0.2, 2)}) : Shape(Rectangle{{random.uniform(1, 12), 2.0}});
+      o.occluder = id % 7 != 0;
+      world.push_back(o);
+    }
+    const OutlineStore store = store_of(world);
+    Bounds box;
+    box.add({0, 0, 0});
+    box.add({200, 200, 0});
+    LooseIndex index(2, box, 4.0);
+    index.reserve(world.size());
+    for (Slot i = 0; i < world.size(); ++i) {
+      const LooseBall ball{{store.at(i).centre, 0.0}, store.at(i).radius};
+      REQUIRE(index.takes(ball));
+      index.place(i, ball);
+    }
+    View view;
+    view.viewer = 1;
+    view.pose = {{random.uniform(0, 200), random.uniform(0, 200), 0.0}, turn_about_z(random.uniform(-3, 3))};
+    if (round % 2 == 0) view.range = 60.0;
+    if (round % 3 == 0) view.fov = 2.0;
+    const ViewVolume volume(view, 2);
+    Silhouettes2D silhouettes;
+    silhouettes.begin(volume);
+    SilhouetteWalk2D walk;
+    WorkCounts work;
+    walk.run(index, silhouettes, work,
+             [&](Slot slot) { silhouettes.enter(slot, store.at(slot), world[slot].occluder); });
+    met += work.object_tests;
+    all += world.size();
+    CHECK(listed(world, silhouettes) == seen(world, view, any_order(world, random)));
+  }
+  CHECK(met < all / 2);
+}
