@@ -114,38 +114,59 @@ void finish(ConvexPiece& piece, Rounding rounding) {
   scale(piece, rounding);
 }
 
-/// The hull's coplanar triangles joined to polygons: walks the borders of the sets of triangles.
-std::vector<Loop> joined_loops(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& hull) {
-  std::map<std::array<std::uint32_t, 2>, std::size_t> triangle_of;
-  for (std::size_t t = 0; t < hull.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) triangle_of[{hull[t][k], hull[t][(k + 1) % 3]}] = t;
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+bool in_one_plane(const std::vector<Vec3>& points, const std::array<std::uint32_t, 3>& a,
+                  const std::array<std::uint32_t, 3>& b) {
+  return std::all_of(b.begin(), b.end(), [&](std::uint32_t i) {
+    return orientation(points[a[0]], points[a[1]], points[a[2]], points[i]) == 0;
+  });
+}
+
+/// The hull's coplanar triangles joined to polygons: spreads over neighbours, then walks the border.
+class FaceJoiner {
+ public:
+  FaceJoiner(const std::vector<Vec3>& points, const Triangles& hull)
+      : points_(points), hull_(hull), taken_(hull.size(), false) {
+    for (std::size_t t = 0; t < hull.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) triangle_of_[{hull[t][k], hull[t][(k + 1) % 3]}] = t;
+    }
   }
-  std::vector<std::size_t> set(hull.size(), hull.size());
-  std::vector<Loop> loops;
-  for (std::size_t first = 0; first < hull.size(); ++first) {
-    if (set[first] != hull.size()) continue;
+
+  std::vector<Loop> loops() {
+    std::vector<Loop> out;
+    for (std::size_t t = 0; t < hull_.size(); ++t) {
+      if (!taken_[t]) out.push_back(walk(border_about(t)));
+    }
+    return out;
+  }
+
+ private:
+  /// The next vertex along the border of the face that holds the triangle.
+  using Border = std::map<std::uint32_t, std::uint32_t>;
+
+  Border border_about(std::size_t first) {
+    Border next;
     std::vector<std::size_t> todo{first};
-    std::map<std::uint32_t, std::uint32_t> next;
-    set[first] = first;
+    taken_[first] = true;
     while (!todo.empty()) {
-      const auto& t = hull[todo.back()];
+      const auto t = hull_[todo.back()];
       todo.pop_back();
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-        const std::size_t other = triangle_of.at({b, a});
-        const auto& o = hull[other];
-        const auto& f = hull[first];
-        const bool same = std::all_of(o.begin(), o.end(), [&](auto i) {
-          return orientation(points[f[0]], points[f[1]], points[f[2]], points[i]) == 0;
-        });
-        if (!same) {
+        const std::size_t other = triangle_of_.at({b, a});
+        if (!in_one_plane(points_, hull_[first], hull_[other])) {
           next[a] = b;
-        } else if (set[other] == hull.size()) {
-          set[other] = first;
+        } else if (!taken_[other]) {
+          taken_[other] = true;
           todo.push_back(other);
         }
       }
     }
+    return next;
+  }
+
+  static Loop walk(const Border& next) {
     Loop loop;
     const std::uint32_t start = next.begin()->first;
     std::uint32_t at = start;
@@ -153,10 +174,14 @@ std::vector<Loop> joined_loops(const std::vector<Vec3>& points, const std::vecto
       loop.push_back(static_cast<std::uint8_t>(at));
       at = next.at(at);
     } while (at != start && loop.size() <= next.size());
-    loops.push_back(std::move(loop));
+    return loop;
   }
-  return loops;
-}
+
+  const std::vector<Vec3>& points_;
+  const Triangles& hull_;
+  std::vector<bool> taken_;
+  std::map<std::array<std::uint32_t, 2>, std::size_t> triangle_of_;
+};
 
 /// The points that are corners of the hull, or, when they are too many, every second, third, ... of them.
 std::vector<Vec3> corners(std::span<const Vec3> points, std::size_t step) {
@@ -229,7 +254,7 @@ ConvexPiece hull_piece(std::span<const Vec3> points, Rounding rounding) {
     }
     const Hull hull = convex_hull(kept);
     piece.vertices = kept;
-    for (const Loop& loop : joined_loops(kept, hull.triangles)) add_face(piece, loop);
+    for (const Loop& loop : FaceJoiner(kept, hull.triangles).loops()) add_face(piece, loop);
   } catch (const Error&) {
     return ConvexPiece{};
   }
