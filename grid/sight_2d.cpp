@@ -1,6 +1,7 @@
 #include "gridcull/grid/sight_2d.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gridcull {
@@ -10,6 +11,12 @@ namespace {
 constexpr double disc_margin = 1e-10;
 /// Of the range: norms of points relative to the viewer are off by less than 4 u.
 constexpr double range_margin = 0x1p-50;
+
+/// Straight pieces of the near side with which a disc hides: more than the chord between its tangents matters only to
+/// what overlaps the disc, and little from afar. 300 discs that overlap at random: 1.05 times too many with one piece,
+/// 1.03 with two, 1.007 with four, 1.000 with eight.
+constexpr std::size_t arcs = 4;
+constexpr double far_away = 24.0;  // radii
 
 struct Span {
   Bearing from, to;
@@ -71,11 +78,36 @@ void Sight2D::hide_behind_disc(const Vec2& centre, double radius, std::uint32_t 
   const double distance = glm::length(centre);
   const double inner = std::min(radius, distance) - disc_margin * distance - 2.0 * blur_;
   if (!(inner > 0.0)) return;
+  if (distance > far_away * inner) return hide_behind_chord(centre, distance, inner, owner);
+  // Spokes from the centre to the tangent points, to the nearest point and halfway between.
   const double power = (distance - inner) * (distance + inner);
-  const Span span = turned_both_ways(centre, std::sqrt(power), inner);
-  const EdgeLine chord{centre / power, tie, 0.0};
-  for_each_run(span.from, span.to,
-               [&](int q, double from, double to) { (void)buffer_.insert(q, from, to, chord.low(q), owner); });
+  const Vec2 ahead = (-inner * inner / (distance * distance)) * centre;
+  const Vec2 left = (inner * std::sqrt(power) / (distance * distance)) * Vec2(-centre.y, centre.x);
+  std::array<Vec2, arcs + 1> spokes;
+  spokes[0] = ahead - left;
+  spokes[arcs] = ahead + left;
+  spokes[arcs / 2] = (-inner / distance) * centre;
+  for (std::size_t step = arcs / 4; step > 0; step /= 2) {
+    for (std::size_t i = step; i < arcs; i += 2 * step) {
+      const Vec2 sum = spokes[i - step] + spokes[i + step];
+      spokes[i] = (inner / glm::length(sum)) * sum;
+    }
+  }
+  Vec2 p = centre + spokes[0];
+  Bearing from = bearing_of(p);
+  for (std::size_t i = 1; i <= arcs; ++i) {
+    const Vec2 q = centre + spokes[i];
+    const Bearing to = bearing_of(q);
+    if (cross2(p, q) > 0.0) (void)hide_behind_edge(from, to, line_of_edge(p, q, blur_), owner);
+    p = q;
+    from = to;
+  }
+}
+
+void Sight2D::hide_behind_chord(const Vec2& centre, double distance, double radius, std::uint32_t owner) {
+  const double power = (distance - radius) * (distance + radius);
+  const Span span = turned_both_ways(centre, std::sqrt(power), radius);
+  (void)hide_behind_edge(span.from, span.to, {centre / power, tie, 0.0}, owner);
 }
 
 bool Sight2D::shows_box(const Vec2& low, const Vec2& high) const {

@@ -1,9 +1,9 @@
 // One viewer's sight in 2D: what of discs, edges and boxes is behind the slope buffer, and how discs hide.
 //
-// Claim (discs). A disc hides with a chord whose ends lie in it, between the tangents of a disc smaller by 1e-10 of
-// the distance d (and a tie of the coordinates, slope_edge.h): every ray between its ends passes the disc before or at
-// the chord. It is tested with its near side, larger by as much, between the tangents. The roundings are below that:
-// with |centre|^2 - radius^2 at least 2e-10 d^2, the tangent points and the chord are off by less than 4 u d^2 /
+// Claim (discs). A disc hides with chords from one tangent point to the other, ends in the disc, of a disc smaller by
+// 1e-10 of the distance d (and a tie of the coordinates, slope_edge.h): every ray through a chord passes the disc
+// before or there. It is tested with its near side, larger by as much, between the tangents. The roundings are below
+// that: with |centre|^2 - radius^2 at least 2e-10 d^2, the tangent points and the chord are off by less than 4 u d^2 /
 // (1.4e-5 d) < 4e-11 d. Claim (range). What lies beyond the range is neither seen nor can it hide what is within: tests
 // are clipped to the range's circle, occluders need not be. Claim (field of view). Slopes outside are closed from the
 // start.
@@ -31,7 +31,7 @@ class Sight2D {
   enum class Disc : std::uint8_t { hidden, around, open };
   /// `square`: of the centre's distance.
   Disc look_at_disc(const Vec2& centre, double square, double radius) const;
-  /// Enters the chord of a disc that does not hold the viewer.
+  /// Enters the near side of a disc that does not hold the viewer.
   void hide_behind_disc(const Vec2& centre, double radius, std::uint32_t owner);
 
   /// Whether something in the box may be visible. Closed box; false only if all of it is hidden.
@@ -59,6 +59,8 @@ class Sight2D {
   double blur() const { return blur_; }
 
  private:
+  void hide_behind_chord(const Vec2& centre, double distance, double radius, std::uint32_t owner);
+
   Vec2 eye_{0.0};
   double range_ = 0.0;
   double blur_ = 0.0;
