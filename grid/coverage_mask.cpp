@@ -28,6 +28,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+
 #include "gridcull/grid/mask_ball.h"
 #include "gridcull/grid/mask_clip.h"
 
@@ -59,10 +61,30 @@ bool pixel_range(double low, double high, double near, double far, double tangen
   return from < to;
 }
 
+constexpr int right_of[3] = {1, 0, 0}, up_of[3] = {2, 2, 1};
+
+/// The faces of the cube, a bit each, that rays may reach: a face is left out when all rays lie behind it or beyond one
+/// of its sides even with their errors, so that the cone they span does.
+unsigned cube_faces_near(const Vec3* rays, int count) {
+  Vec3 low = rays[0], high = rays[0];
+  for (int k = 1; k < count; ++k) low = glm::min(low, rays[k]), high = glm::max(high, rays[k]);
+  double slack = 0.0;
+  for (int k = 0; k < 3; ++k) slack = std::max({slack, -low[k], high[k]});
+  slack *= 0x1p-38;
+  unsigned near = 0;
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2, r = right_of[axis], u = up_of[axis];
+    const double depth = (face % 2 == 0 ? high[axis] : -low[axis]) + slack;  // at most
+    const bool reached = depth > 0.0 && low[r] - slack <= depth && low[u] - slack <= depth &&
+                         high[r] + slack >= -depth && high[u] + slack >= -depth;
+    near |= static_cast<unsigned>(reached) << face;
+  }
+  return near;
+}
+
 /// An axis-aligned box on a face of the cube: the rectangle of its image, from intervals. It errs outward only, and
 /// by no more than the box's part beside the viewpoint makes it.
 bool box_on_cube_face(const MaskFace& face, int index, const Vec3& low, const Vec3& high, masking::Rectangle& out) {
-  static constexpr int right_of[3] = {1, 0, 0}, up_of[3] = {2, 2, 1};
   const int axis = index / 2, r = right_of[axis], u = up_of[axis];
   const double far = index % 2 == 0 ? high[axis] : -low[axis], near = index % 2 == 0 ? low[axis] : -high[axis];
   const masking::Window& w = face.window;
@@ -129,15 +151,17 @@ bool CoverageMask::open_cone(const MaskFace& face, const Vec3* rays, int count) 
 }
 
 void CoverageMask::cover_convex(const Vec3* rays, int count) {
+  const unsigned near = face_count_ == 6 ? cube_faces_near(rays, count) : 1;
   for (int k = 0; k < face_count_; ++k) {
     MaskFace& f = faces_[static_cast<std::size_t>(k)];
-    if (f.window.open_blocks != 0) cover_cone(f, rays, count);
+    if ((near >> k & 1u) != 0 && f.window.open_blocks != 0) cover_cone(f, rays, count);
   }
 }
 
 bool CoverageMask::open_convex(const Vec3* rays, int count) const {
+  const unsigned near = face_count_ == 6 ? cube_faces_near(rays, count) : 1;
   for (int k = 0; k < face_count_; ++k) {
-    if (face(k).window.open_blocks != 0 && open_cone(face(k), rays, count)) return true;
+    if ((near >> k & 1u) != 0 && face(k).window.open_blocks != 0 && open_cone(face(k), rays, count)) return true;
   }
   return false;
 }

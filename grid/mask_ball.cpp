@@ -65,11 +65,11 @@ BallPlace place_ball(const MaskFace& face, const Vec3& c, double r, Ellipse& out
   out.low_y = middle_y + sy * low_v, out.high_y = middle_y + sy * high_v;
   out.y_at_low_x = middle_y + sy * (tilt * (c.x * low_u + c.z));
   out.y_at_high_x = middle_y + sy * (tilt * (c.x * high_u + c.z));
-  // Heights as pixels: v = y / sy - tangent_y.
+  // Heights as pixels: v = y step_y - tangent_y.
   const double per_row = sx * over_a;
   out.alpha = middle_x + per_row * (c.x * (c.z - c.y * face.tangent_y));
-  out.beta = per_row * (c.x * c.y) / sy;
-  out.gamma = per_row * std::sqrt(k * z) / sy;
+  out.beta = per_row * (c.x * c.y) * face.step_y;
+  out.gamma = per_row * std::sqrt(k * z) * face.step_y;
   out.tolerance = 0x1p-30 * sy;
   return BallPlace::ellipse;
 }

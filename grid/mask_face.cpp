@@ -35,6 +35,7 @@ void set_geometry(MaskFace& face, const Vec3& right, const Vec3& up, const Vec3&
   w.height = std::max(8, static_cast<int>(std::lround(resolution * (tangent_y / longer))));
   const double middle_x = 0.5 * w.width, middle_y = 0.5 * w.height;
   face.scale_x = middle_x / tangent_x, face.scale_y = middle_y / tangent_y;
+  face.step_y = 1.0 / face.scale_y;
   face.norm_x = std::sqrt(1.0 + tangent_x * tangent_x), face.norm_y = std::sqrt(1.0 + tangent_y * tangent_y);
   set_form(w.form_x, face.scale_x * right + middle_x * forward);
   set_form(w.form_y, face.scale_y * up + middle_y * forward);

@@ -22,6 +22,7 @@ struct MaskFace {
   Vec3 right, up, forward;                  ///< orthonormal up to 2^-48
   double tangent_x = 0.0, tangent_y = 0.0;  ///< half the window
   double scale_x = 0.0, scale_y = 0.0;      ///< pixels to a unit of tangent
+  double step_y = 0.0;                      ///< 1 / scale_y
   double norm_x = 0.0, norm_y = 0.0;        ///< sqrt(1 + tangent^2)
 
   Vec3 to_face(const Vec3& d) const { return {glm::dot(right, d), glm::dot(up, d), glm::dot(forward, d)}; }

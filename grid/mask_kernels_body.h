@@ -6,6 +6,7 @@
 // Why the answers are conservative stands in coverage_mask.cpp.
 
 #include "gridcull/grid/mask_kernels.h"
+#include "gridcull/grid/mask_strips_body.h"
 
 namespace gridcull::masking::GRIDCULL_MASK_SET {
 namespace {
@@ -15,30 +16,30 @@ constexpr double snap = 1.5 * 0x1p20;
 /// The largest coordinate of a direction over its depth within which the margins hold.
 constexpr double steepest = 16.0;
 
-int ceil_within(double x, int limit) { return x <= 0.0 ? 0 : x >= limit ? limit : round_up(x); }
-/// -1 for whatever lies below 0.
-int floor_within(double x, int limit) { return x < 0.0 ? -1 : x >= limit ? limit : round_down(x); }
-
 struct Projected {
-  Lanes x, y, w, size;
+  Lanes x, y, w;
 };
+
+/// The largest coordinate of each direction.
+Lanes size_of(const Lanes& x, const Lanes& y, const Lanes& z) {
+  return larger(larger(magnitude(x), magnitude(y)), magnitude(z));
+}
 
 Lanes form(const double* f, const Lanes& x, const Lanes& y, const Lanes& z) {
   return (splat(f[0]) * x + splat(f[1]) * y) + splat(f[2]) * z;
 }
 
 Projected apply_forms(const Window& window, const Lanes& x, const Lanes& y, const Lanes& z) {
-  return {form(window.form_x, x, y, z), form(window.form_y, x, y, z), form(window.form_w, x, y, z),
-          larger(larger(magnitude(x), magnitude(y)), magnitude(z))};
+  return {form(window.form_x, x, y, z), form(window.form_y, x, y, z), form(window.form_w, x, y, z)};
 }
 
 /// Which of the four sides all rays so far are beyond.
 struct Beyond {
   unsigned left = 255, right = 255, low = 255, high = 255;
 
-  void add(const Window& window, const Projected& p) {
-    const Lanes zero = splat(0.0);
-    const Lanes slack_x = splat(window.slack_x) * p.size, slack_y = splat(window.slack_y) * p.size;
+  void add(const Window& window, const Projected& p, const Lanes& x, const Lanes& y, const Lanes& z) {
+    const Lanes zero = splat(0.0), size = size_of(x, y, z);
+    const Lanes slack_x = splat(window.slack_x) * size, slack_y = splat(window.slack_y) * size;
     left &= bits(p.x + slack_x < zero);
     right &= bits((splat(window.width) * p.w - p.x) + slack_x < zero);
     low &= bits(p.y + slack_y < zero);
@@ -47,25 +48,34 @@ struct Beyond {
   bool any() const { return left == 255 || right == 255 || low == 255 || high == 255; }
 };
 
-Projection project(const Window& window, const double* rays, int count, Polygon& out) {
+/// The slow half of project(): which cones touch no pixel for sure.
+Projection outside_or_crossing(const Window& window, const double* rays, int count) {
   Beyond beyond;
-  unsigned inside = 255;
-  const Lanes zero = splat(0.0);
+  for (int k = 0; k < count; k += 8) {
+    Lanes x, y, z;
+    load_rays(rays + 3 * k, count - k < 8 ? count - k : 8, x, y, z);
+    beyond.add(window, apply_forms(window, x, y, z), x, y, z);
+  }
+  return beyond.any() ? Projection::outside : Projection::crossing;
+}
+
+Projection project(const Window& window, const double* rays, int count, Polygon& out) {
+  const Lanes middle_x = splat(0.5 * window.width), middle_y = splat(0.5 * window.height);
   for (int k = 0; k < count; k += 8) {
     Lanes x, y, z;
     load_rays(rays + 3 * k, count - k < 8 ? count - k : 8, x, y, z);
     const Projected p = apply_forms(window, x, y, z);
-    beyond.add(window, p);
-    const Lanes u = p.x / p.w, v = p.y / p.w;
-    const Lanes off_x = magnitude(u - splat(0.5 * window.width)), off_y = magnitude(v - splat(0.5 * window.height));
-    inside &= bits((zero < p.w) & (off_x <= splat(window.guard_x)) & (off_y <= splat(window.guard_y)));
+    if (bits(splat(0.0) < p.w) != 255) return outside_or_crossing(window, rays, count);
+    const Lanes over_w = splat(1.0) / p.w, u = p.x * over_w, v = p.y * over_w;
+    const Mask near_x = magnitude(u - middle_x) <= splat(window.guard_x);
+    const Mask near_y = magnitude(v - middle_y) <= splat(window.guard_y);
+    if (bits(near_x & near_y) != 255) return outside_or_crossing(window, rays, count);
     store(out.x + k, (u + splat(snap)) - splat(snap));
     store(out.y + k, (v + splat(snap)) - splat(snap));
   }
   out.count = count;
   out.margin_x = window.margin_x, out.margin_y = window.margin_y;
-  if (beyond.any()) return Projection::outside;
-  return inside == 255 ? Projection::inside : Projection::crossing;
+  return Projection::inside;
 }
 
 Projection project_box(const Window& window, const double* low, const double* high, Rectangle& out) {
@@ -76,11 +86,12 @@ Projection project_box(const Window& window, const double* low, const double* hi
   const Lanes y = select(load(bit1) < half, splat(low[1]), splat(high[1]));
   const Lanes z = select(load(bit2) < half, splat(low[2]), splat(high[2]));
   const Projected p = apply_forms(window, x, y, z);
-  Beyond beyond;
-  beyond.add(window, p);
-  if (beyond.any()) return Projection::outside;
-  if (bits((splat(0.0) < p.w) & (p.size <= splat(steepest) * p.w)) != 255) return Projection::crossing;
-  const Lanes u = p.x / p.w, v = p.y / p.w;
+  if (bits((splat(0.0) < p.w) & (size_of(x, y, z) <= splat(steepest) * p.w)) != 255) {
+    Beyond beyond;
+    beyond.add(window, p, x, y, z);
+    return beyond.any() ? Projection::outside : Projection::crossing;
+  }
+  const Lanes over_w = splat(1.0) / p.w, u = p.x * over_w, v = p.y * over_w;
   out.x0 = floor_within(lowest(u) - window.margin_x, window.width);
   out.x1 = floor_within(highest(u) + window.margin_x, window.width - 1) + 1;
   out.y0 = floor_within(lowest(v) - window.margin_y, window.height);
@@ -88,139 +99,6 @@ Projection project_box(const Window& window, const double* low, const double* hi
   if (out.x0 < 0) out.x0 = 0;
   if (out.y0 < 0) out.y0 = 0;
   return out.x0 < out.x1 && out.y0 < out.y1 ? Projection::inside : Projection::outside;
-}
-
-// Strips and blocks.
-
-/// Pixel columns [x0, x1) and rows [y0, y1) that a shape may reach.
-struct Extent {
-  int x0, x1, y0, y1;
-  bool empty() const { return x0 >= x1 || y0 >= y1; }
-};
-
-/// Bits of coarse word k of a strip: blocks in [first, last] that are not full.
-std::uint64_t open_blocks(const Window& window, int strip, int k, int first, int last) {
-  const int low = first - 64 * k, high = last - 64 * k;
-  if (high < 0 || low > 63) return 0;
-  const std::uint64_t range =
-      (~std::uint64_t{0} << (low > 0 ? low : 0)) & (~std::uint64_t{0} >> (high < 63 ? 63 - high : 0));
-  return range & ~window.full[strip * window.coarse + k];
-}
-
-bool any_open(const Window& window, int strip, int first, int last) {
-  std::uint64_t open = 0;
-  for (int k = 0; k < window.coarse; ++k) open |= open_blocks(window, strip, k, first, last);
-  return open != 0;
-}
-
-/// Calls f(block) for the blocks of a strip in [first, last] that are not full, until it says true.
-template <class F>
-bool each_open(const Window& window, int strip, int first, int last, F&& f) {
-  for (int k = 0; k < window.coarse; ++k) {
-    for (std::uint64_t open = open_blocks(window, strip, k, first, last); open != 0; open &= open - 1) {
-      if (f(64 * k + __builtin_ctzll(open))) return true;
-    }
-  }
-  return false;
-}
-
-/// Narrows [first, last] to the blocks that the spans of a strip really reach: worth it for long slanted shapes.
-void narrow(const Ints& from, const Ints& to, int& first, int& last) {
-  if (last - first < 4) return;
-  int a[8], b[8];
-  store(a, from), store(b, to);
-  int low = 64 * last + 63, high = 64 * first;
-  for (int k = 0; k < 8; ++k) {
-    if (a[k] >= b[k]) continue;
-    if (a[k] < low) low = a[k];
-    if (b[k] - 1 > high) high = b[k] - 1;
-  }
-  if (low / 64 > first) first = low / 64;
-  if (high / 64 < last) last = high / 64;
-}
-
-int fill(Window& window, int strip, const Ints& from, const Ints& to, int first, int last) {
-  int filled = 0;
-  narrow(from, to, first, last);
-  each_open(window, strip, first, last, [&](int block) {
-    std::uint64_t* const words = window.words + 8 * (strip * window.blocks + block);
-    const Words now = load(words) | span(from, to, 64 * block);
-    store(words, now);
-    if (all_ones(now)) {
-      window.full[strip * window.coarse + block / 64] |= std::uint64_t{1} << (block % 64);
-      ++filled;
-    }
-    return false;
-  });
-  return filled;
-}
-
-bool open_within(const Window& window, int strip, const Ints& from, const Ints& to, int first, int last) {
-  narrow(from, to, first, last);
-  return each_open(window, strip, first, last, [&](int block) {
-    const Words words = load(window.words + 8 * (strip * window.blocks + block));
-    return any_beyond(span(from, to, 64 * block), words);
-  });
-}
-
-/// Goes through the strips of an extent that are not full yet. spans(rows, from, to) gives the columns
-/// [from, to) of eight rows; use(strip, from, to, first, last) works on the blocks and ends the walk with true.
-template <class Spans, class Use>
-bool each_strip(const Window& window, const Extent& e, std::uint64_t& strips, Spans&& spans, Use&& use) {
-  const int first = e.x0 / 64, last = (e.x1 - 1) / 64;
-  for (int strip = e.y0 / 8; 8 * strip < e.y1; ++strip) {
-    if (!any_open(window, strip, first, last)) continue;
-    ++strips;
-    const int top = 8 * strip;
-    Ints from, to;
-    spans(splat(top) + iota(), from, to);
-    if (top < e.y0 || top + 8 > e.y1) to = keep(to, e.y0 - top, e.y1 - top);
-    if (use(strip, from, to, first, last)) return true;
-  }
-  return false;
-}
-
-template <class Spans>
-int cover_strips(Window& window, const Extent& e, std::uint64_t& strips, Spans&& spans) {
-  int filled = 0;
-  each_strip(window, e, strips, spans, [&](int strip, const Ints& from, const Ints& to, int first, int last) {
-    filled += fill(window, strip, from, to, first, last);
-    return false;
-  });
-  window.open_blocks -= filled;
-  return filled;
-}
-
-template <class Spans>
-bool open_strips(const Window& window, const Extent& e, std::uint64_t& strips, Spans&& spans) {
-  return each_strip(window, e, strips, spans, [&](int strip, const Ints& from, const Ints& to, int first, int last) {
-    return open_within(window, strip, from, to, first, last);
-  });
-}
-
-/// Columns [up(low), down(high)) of eight rows: whole pixels between the two.
-void whole_pixels(const Window& window, const Lanes& low, const Lanes& high, Ints& from, Ints& to) {
-  const Lanes zero = splat(0.0), width = splat(window.width);
-  from = round_up(smaller(larger(low, zero), width));
-  to = round_down(smaller(larger(high, zero), width));
-}
-
-/// Columns [down(low), down(high) + 1) of eight rows: pixels touched.
-void touched_pixels(const Window& window, const Lanes& low, const Lanes& high, Ints& from, Ints& to) {
-  const Lanes zero = splat(0.0);
-  from = round_down(smaller(larger(low, zero), splat(window.width)));
-  to = add(round_down(smaller(larger(high, splat(-1.0)), splat(window.width - 0.5))), 1);
-}
-
-Extent whole_extent(const Window& window, double x0, double x1, double y0, double y1) {
-  const int right = floor_within(x1, window.width), high = floor_within(y1, window.height);
-  return {ceil_within(x0, window.width), right, ceil_within(y0, window.height), high};
-}
-
-Extent touched_extent(const Window& window, double x0, double x1, double y0, double y1) {
-  const int left = floor_within(x0, window.width), low = floor_within(y0, window.height);
-  return {left > 0 ? left : 0, floor_within(x1, window.width - 1) + 1, low > 0 ? low : 0,
-          floor_within(y1, window.height - 1) + 1};
 }
 
 // Polygons.
@@ -263,7 +141,8 @@ void list_bits(unsigned set, int offset, int* list, int& count) {
 
 /// Edges as lines x = base + slope * j at the pixel row's edge that matters: within, the one where the line
 /// cuts deepest; around, the other.
-void set_edges(const Polygon& p, Side side, Edges& out) {
+template <Side side>
+void set_edges(const Polygon& p, Edges& out) {
   const int padded = (p.count + 7) & ~7;
   const Lanes zero = splat(0.0), lower = splat(-p.margin_y), upper = splat(1.0 + p.margin_y);
   const double area = area_of(p, padded);
@@ -324,7 +203,7 @@ int cover_polygon(Window& window, const Polygon& p, std::uint64_t& strips) {
   const Extent e = whole_extent(window, x0 + p.margin_x, x1 - p.margin_x, y0 + p.margin_y, y1 - p.margin_y);
   if (e.empty()) return 0;
   Edges edges;
-  set_edges(p, Side::within, edges);
+  set_edges<Side::within>(p, edges);
   return cover_strips(window, e, strips, [&](const Lanes& rows, Ints& from, Ints& to) {
     Lanes low = splat(0.0), high = splat(window.width);
     between(edges, rows, low, high);
@@ -338,7 +217,7 @@ bool open_polygon(const Window& window, const Polygon& p, std::uint64_t& strips)
   const Extent e = touched_extent(window, x0 - p.margin_x, x1 + p.margin_x, y0 - p.margin_y, y1 + p.margin_y);
   if (e.empty()) return false;
   Edges edges;
-  set_edges(p, Side::around, edges);
+  set_edges<Side::around>(p, edges);
   const Lanes left = splat(x0 - p.margin_x), right = splat(x1 + p.margin_x);
   return open_strips(window, e, strips, [&](const Lanes& rows, Ints& from, Ints& to) {
     Lanes low = left, high = right;
@@ -386,11 +265,8 @@ bool open_ellipse(const Window& window, const Ellipse& o, std::uint64_t& strips)
 
 bool open_rectangle(const Window& window, const Rectangle& r, std::uint64_t& strips) {
   const Extent e{r.x0, r.x1, r.y0, r.y1};
-  const Ints zero = round_down(splat(0.0));
-  return open_strips(window, e, strips, [&](const Lanes&, Ints& from, Ints& to) {
-    from = add(zero, r.x0);
-    to = add(zero, r.x1);
-  });
+  const Ints zero = round_down(splat(0.0)), x0 = add(zero, r.x0), x1 = add(zero, r.x1);
+  return open_strips(window, e, strips, [&](const Lanes&, Ints& from, Ints& to) { from = x0, to = x1; });
 }
 
 }  // namespace
