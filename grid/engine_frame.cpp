@@ -35,8 +35,10 @@ void GridEngine::State::settle_jumps(double time) {
   const double step = started ? time - before : 0.0;
   for (const Pushed& p : pushed) {
     ObjectState& state = world.objects[p.slot];
-    const double distance = glm::length(state.pose.position - p.from);
-    const bool too_far = started && distance > state.max_speed * step * (1.0 + 1e-9);
+    const Vec3 way = state.pose.position - p.from;
+    const double most = state.max_speed * step;
+    // The rule compares lengths; squares, which need no root, settle all that are clearly shorter.
+    const bool too_far = started && glm::dot(way, way) >= most * most && glm::length(way) > most * (1.0 + 1e-9);
     bool escaped = false;
     // A volume past its term is renewed in expire(): leaving it is no jump (the pull rule has none there either).
     if (state.place == Place::hidden && expiries.expiry(p.slot) >= time) {
@@ -91,13 +93,12 @@ void GridEngine::State::discretise() {
     }
   }
   waiting.clear();
+  if (world.source == nullptr) {
+    follow_pushed();
+    return;
+  }
   for (const Slot slot : active) {
     ObjectState& state = world.objects[slot];
-    if (world.source == nullptr) {  // move() has said so already
-      world.read_alone(slot);
-      if (state.stale) cover(slot);
-      continue;
-    }
     const Pose old = state.pose;
     world.read_alone(slot);
     if (old.position != state.pose.position || old.orientation.w != state.pose.orientation.w ||
@@ -105,6 +106,15 @@ void GridEngine::State::discretise() {
         old.orientation.z != state.pose.orientation.z) {
       state.stale = true;
     }
+    if (state.stale) cover(slot);
+  }
+}
+
+// move() has written the poses and said who moved.
+void GridEngine::State::follow_pushed() {
+  for (const Slot slot : active) {
+    ObjectState& state = world.objects[slot];
+    world.note_read(state);
     if (state.stale) cover(slot);
   }
 }

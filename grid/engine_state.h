@@ -11,7 +11,7 @@
 #include "gridcull/grid/expiry_queue.h"
 #include "gridcull/grid/grid_world.h"
 #include "gridcull/grid/tbv_term.h"
-#include "gridcull/grid/view_task.h"
+#include "gridcull/grid/view_answerer.h"
 #include "gridcull/grid/viewer_paths.h"
 
 namespace gridcull {
@@ -29,6 +29,7 @@ struct GridEngine::State {
   void settle_jumps(double time);
   void expire();
   void discretise();
+  void follow_pushed();
   void note_viewers(std::span<const View> views);
   void answer_views(std::span<const View> views, Answers& out);
   void merge(std::size_t views);
@@ -41,6 +42,8 @@ struct GridEngine::State {
   void unlist_active(Slot slot);
   void hide(Slot slot);
   void give_volume(Slot slot);
+  /// The ball of a hidden object's volume.
+  TbvMatrix::Ball volume(Slot slot) const;
   /// Doubles the object's term if the volume it then gets stays clear of what somebody sees.
   bool lengthen_term(ObjectState& state);
   void take_volume(Slot slot);
@@ -64,6 +67,7 @@ struct GridEngine::State {
   double before = 0.0;  // time of the frame before
   FrameStats stats;
 
+  std::uint64_t volumes = 0;  // hidden objects
   std::vector<Slot> active;   // moving objects in O and I
   std::vector<Slot> waiting;  // added, moved by hand, or jumped: to be discretised at the next frame
   std::vector<Pushed> pushed;
@@ -71,9 +75,9 @@ struct GridEngine::State {
   std::vector<std::uint8_t> seen;  // per slot: in somebody's PVS in this frame
   std::vector<Slot> expired;
   std::vector<Slot> hiding;
-  std::vector<ViewResult> results;               // per view
-  std::vector<std::unique_ptr<ViewTask>> tasks;  // per thread
-  std::unique_ptr<tbb::task_arena> arena;        // made when first needed
+  std::vector<ViewResult> results;                   // per view
+  std::vector<std::unique_ptr<ViewAnswerer>> tasks;  // per thread
+  std::unique_ptr<tbb::task_arena> arena;            // made when first needed
   CoverScratch scratch;
   Cover cover_buffer;
 

@@ -19,7 +19,7 @@ Lattice one_cell(const Lattice& lattice) {
 GridWorld::GridWorld(const Lattice& cells, bool with_silhouettes)
     : lattice(cells),
       silhouettes(with_silhouettes
-                      ? std::make_unique<SilhouetteWorld>(cells.dimension(), cells.box(), 2.0 * cells.cell())
+                      ? std::make_unique<SilhouetteWorld>(cells.dimension(), cells.box(), 4.0 * cells.cell())
                       : nullptr),
       voxels(with_silhouettes ? one_cell(cells) : cells),
       matrix(voxels),
@@ -64,15 +64,12 @@ Pose GridWorld::read(Slot slot) {
 
 const Pose& GridWorld::read_alone(Slot slot) {
   ObjectState& state = objects[slot];
-  if (state.read_frame != static_cast<std::uint32_t>(frame)) {
-    if (source != nullptr) {
-      const Pose pose = source->pose(state.id);
-      check_pose(pose, state.id, lattice.dimension());
-      state.pose = pose;
-    }
-    state.read_frame = static_cast<std::uint32_t>(frame);
-    ++positions_read;
+  if (source != nullptr && state.read_frame != static_cast<std::uint32_t>(frame)) {
+    const Pose pose = source->pose(state.id);
+    check_pose(pose, state.id, lattice.dimension());
+    state.pose = pose;
   }
+  note_read(state);
   return state.pose;
 }
 

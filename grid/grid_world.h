@@ -49,6 +49,12 @@ struct GridWorld {
   Pose read(Slot slot);
   /// The same while no views are being answered.
   const Pose& read_alone(Slot slot);
+  /// Counts the object's position as read in this frame, once.
+  void note_read(ObjectState& state) {
+    if (state.read_frame == static_cast<std::uint32_t>(frame)) return;
+    state.read_frame = static_cast<std::uint32_t>(frame);
+    ++positions_read;
+  }
 
  private:
   std::mutex reading_;

@@ -86,6 +86,16 @@ class LooseIndex {
     const Level& level = levels_[static_cast<std::size_t>(id.level)];
     return level.nodes.empty() ? empty_ : level.nodes[level.index(id, dimension_)];
   }
+  /// The 8 (2D: 4) children of a node above the finest level, x fastest: child c is at 2 x + (c & 1) and so on. Those
+  /// that lie beyond the grid are empty. nullptr where their level is not in use.
+  const Node* children(const NodeId& id) const {
+    const Level& level = levels_[static_cast<std::size_t>(id.level - 1)];
+    if (level.nodes.empty()) return nullptr;
+    return &level.nodes[level.index({id.level - 1, 2 * id.x, 2 * id.y, 2 * id.z}, dimension_)];
+  }
+  /// A node's loose box is its corner + side * [x - 1/2, x + 3/2] and so on, grown by the margin.
+  const Vec3& corner() const { return box_.min; }
+  double margin() const { return margin_; }
   Slot next(Slot slot) const { return entries_[slot].after; }
   /// Box that holds the balls of everything in the node and below (grown by half a side and the rounding).
   Bounds loose_box(const NodeId& id) const;

@@ -29,6 +29,9 @@ namespace {
 
 double magnitude(const Vec3& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
+/// Entries that are worth a test of their node.
+constexpr std::uint32_t few = 2;
+
 /// Distances are rounded three or four times, each by at most 2^-52 of the coordinates that went in.
 constexpr double rounding = 0x1p-46;
 
@@ -86,6 +89,7 @@ void Silhouette3D::begin(const View& view) {
   rides_ = view.rides == no_id ? none : world.objects.find(view.rides);
   const Vec3& apex = volume_->apex();
   apex_size_ = magnitude(apex);
+  corner_ = shapes_->index.corner() - apex;
   limit_ = volume_->range() * (1.0 + 1e-12);
   mask_.begin(*volume_, pixels());
   mask_.clear_counts();
@@ -93,6 +97,7 @@ void Silhouette3D::begin(const View& view) {
   rays_.clear();
   sliced_.clear();
   const Bounds box = world.lattice.box();
+  blur_ = rounding * (apex_size_ + magnitude(box.min) + magnitude(box.max));
   const double far = std::min(limit_, farthest_of_box(box.min - apex, box.max - apex));
   queue_.begin(std::min(far, distance_to_box(box.min - apex, box.max - apex)), far);
   const int top = shapes_->index.top();
@@ -121,29 +126,43 @@ void Silhouette3D::walk() {
   }
 }
 
+// The index grows a node's box by a margin that covers its own rounding; blur_ covers that of these sums.
+Silhouette3D::Box Silhouette3D::box_of(const LooseIndex::NodeId& id) const {
+  const double side = shapes_->index.side(id.level);
+  const double grown = 0.5 * side + shapes_->index.margin() + blur_;
+  const Vec3 low = corner_ + side * Vec3(id.x, id.y, id.z);
+  return {low - Vec3(grown), low + Vec3(side + grown)};
+}
+
 void Silhouette3D::push_node(const LooseIndex::NodeId& id) {
-  const Bounds box = shapes_->index.loose_box(id);
-  const Vec3& apex = volume_->apex();
-  const double key = distance_to_box(box.min - apex, box.max - apex) -
-                     rounding * (apex_size_ + magnitude(box.min) + magnitude(box.max));
+  const Box box = box_of(id);
+  const double key = distance_to_box(box.low, box.high) - blur_;
   if (key <= limit_) queue_.push(FrontQueue::Kind::node, key, packed(id));
 }
 
 void Silhouette3D::open_node(std::uint64_t what) {
   const LooseIndex& index = shapes_->index;
   const LooseIndex::NodeId id = unpacked(what);
-  const Bounds box = index.loose_box(id);
-  if (!mask_.open_box(box.min - volume_->apex(), box.max - volume_->apex())) {
-    ++answer_->work.cells_hidden;
-    return;
+  const LooseIndex::Node& node = index.node(id);
+  // A test costs as much as those of the few entries that it might spare.
+  if (node.below > few) {
+    const Box box = box_of(id);
+    if (!mask_.open_box(box.low, box.high)) {
+      ++answer_->work.cells_hidden;
+      return;
+    }
   }
   ++answer_->work.cells_visited;
-  for (Slot slot = index.node(id).first; slot != none; slot = index.next(slot)) push_entry(slot);
-  if (id.level == 0) return;
+  for (Slot slot = node.first; slot != none; slot = index.next(slot)) push_entry(slot);
+  if (id.level > 0) push_children(id);
+}
+
+void Silhouette3D::push_children(const LooseIndex::NodeId& id) {
+  const LooseIndex::Node* children = shapes_->index.children(id);
+  if (children == nullptr) return;
   for (int child = 0; child < 8; ++child) {
-    const LooseIndex::NodeId below{id.level - 1, 2 * id.x + (child & 1), 2 * id.y + (child >> 1 & 1),
-                                   2 * id.z + (child >> 2)};
-    if (index.exists(below) && index.node(below).below > 0) push_node(below);
+    if (children[child].below == 0) continue;
+    push_node({id.level - 1, 2 * id.x + (child & 1), 2 * id.y + (child >> 1 & 1), 2 * id.z + (child >> 2)});
   }
 }
 

@@ -42,7 +42,12 @@ class Silhouette3D final : public ViewAnswerer {
   /// The mask's resolution for this view.
   int pixels() const;
   void walk();
+  struct Box {
+    Vec3 low, high;  ///< relative to the viewpoint
+  };
+  Box box_of(const LooseIndex::NodeId& id) const;
   void push_node(const LooseIndex::NodeId& id);
+  void push_children(const LooseIndex::NodeId& id);
   void open_node(std::uint64_t packed);
   void push_entry(Slot slot);
   void push(FrontQueue::Kind kind, Slot slot, const LooseBall& ball);
@@ -76,6 +81,8 @@ class Silhouette3D final : public ViewAnswerer {
   Slot rides_ = none;
   double limit_ = 0.0;      // nothing whose nearest point is farther can be reported
   double apex_size_ = 0.0;  // sum of its coordinates' magnitudes
+  Vec3 corner_{0.0};        // of the index, relative to the viewpoint
+  double blur_ = 0.0;       // metres: rounding of distances to anything in the index
   std::vector<Occluder> occluders_;
   std::vector<Vec3> rays_;
   std::vector<Sliced> sliced_;
