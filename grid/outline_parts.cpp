@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gridcull/core/predicates.h"
-
 namespace gridcull {
 namespace {
 
@@ -44,9 +42,15 @@ double distance(const Vec2& p, const Edge& e) {
   return glm::length(p - (e.a + t * d));
 }
 
+/// Whether each has its ends on both sides of the other. Plain doubles do: an end within rounding of the other's line
+/// lies within rounding of the other edge, or that one's end of this edge, if they cross at all; distances tell.
 bool cross(const Edge& p, const Edge& q) {
-  return orientation(p.a, p.b, q.a) * orientation(p.a, p.b, q.b) <= 0 &&
-         orientation(q.a, q.b, p.a) * orientation(q.a, q.b, p.b) <= 0;
+  const auto apart = [](const Edge& e, const Edge& f) {
+    const Vec2 d = e.b - e.a;
+    const double from = cross2(d, f.a - e.a), to = cross2(d, f.b - e.a);
+    return (from > 0.0 && to < 0.0) || (from < 0.0 && to > 0.0);
+  };
+  return apart(p, q) && apart(q, p);
 }
 
 double distance(const Edge& p, const Edge& q, std::size_t count) {

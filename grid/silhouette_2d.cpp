@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "gridcull/core/predicates.h"
-
 namespace gridcull {
 
 Placed2D placed(const Outline2D& outline, const Pose& pose, const Vec2* points) {
@@ -160,7 +158,7 @@ bool Silhouettes2D::face_all(const Placed2D& object) {
   return clear;
 }
 
-/// The open interior, by the even-odd rule on the world points, with exact signs.
+/// The open interior, judged as interior_holds() does (core/view_volume.h), on the points at hand.
 bool Silhouettes2D::holds_viewer(const Placed2D& object) const {
   const Vec2& eye = sight_.eye();
   if (object.outline == nullptr) {
@@ -172,9 +170,11 @@ bool Silhouettes2D::holds_viewer(const Placed2D& object) const {
   bool inside = false;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 &a = object.points[i], &b = object.points[i + 1 < count ? i + 1 : 0];
-    const int side = orientation(a, b, eye);
-    if (side == 0 && glm::dot(a - eye, b - eye) <= 0.0) return false;
-    if ((a.y > eye.y) != (b.y > eye.y) && side == (b.y > a.y ? 1 : -1)) inside = !inside;
+    const Vec2 from = a - eye, to = b - eye;
+    if (cross2(from, to) == 0.0 && glm::dot(from, to) <= 0.0) return false;
+    if ((a.y > eye.y) == (b.y > eye.y)) continue;
+    const double side = cross2(b - a, eye - a);
+    if (b.y > a.y ? side > 0.0 : side < 0.0) inside = !inside;
   }
   return inside;
 }
