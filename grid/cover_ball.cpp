@@ -170,6 +170,94 @@ void disc(const Lattice& lattice, const Ball& ball, Cover& out) {
   }
 }
 
+/// Squares along an axis for the cells of at most three bricks.
+struct ShortLine {
+  static constexpr int bricks = 3;
+  std::array<DoublePair, 2 * bricks> near, far;
+  std::int64_t first_brick = 0;
+  int first = 0, last = -1;  ///< cells that the ball may touch, counted from the first brick's first
+
+  bool fits(const Range& cells) const { return (cells.last >> 2) - (cells.first >> 2) < bricks; }
+  int count() const { return (last >> 2) + 1; }  ///< of bricks
+
+  void fill(const Axis& axis, const Range& cells, double centre, double margin) {
+    const DoublePair half = DoublePair::both(0.5 * axis.cell + margin);
+    const DoublePair origin = DoublePair::both(axis.origin), cell = DoublePair::both(axis.cell);
+    const DoublePair about = DoublePair::both(centre), none = DoublePair::both(0.0), two = DoublePair::both(2.0);
+    first_brick = cells.first >> 2;
+    const std::int64_t from = 4 * first_brick;
+    first = static_cast<int>(cells.first - from);
+    last = static_cast<int>(cells.last - from);
+    DoublePair middle = DoublePair::of(static_cast<double>(from) + 0.5, static_cast<double>(from) + 1.5);
+    for (std::size_t p = 0, pairs = 2 * static_cast<std::size_t>(count()); p < pairs; ++p) {
+      const DoublePair away = absolute(origin + middle * cell - about);
+      const DoublePair gap = greatest(away - half, none), reach = away + half;
+      near[p] = gap * gap;
+      far[p] = reach * reach;
+      middle = middle + two;
+    }
+  }
+  /// No ball touches or fills the cells beyond the lattice.
+  void cut(std::int64_t cells) {
+    for (int i = static_cast<int>(cells - 4 * first_brick); i < 4 * count(); ++i) {
+      const auto p = static_cast<std::size_t>(i) / 2;
+      const bool second = i % 2 != 0;
+      near[p] = DoublePair::of(second ? near[p].first() : infinite, infinite);
+      far[p] = DoublePair::of(second ? far[p].first() : infinite, infinite);
+    }
+  }
+};
+
+/// A sphere of at most three bricks along each axis, as most are, row by row of cells.
+struct SmallSphere {
+  ShortLine x, y, z;
+  double r2;
+  bool opaque;
+
+  /// The cells of `width` bricks side by side; `base` is the index of the first.
+  template <int width>
+  void bricks(int by, int bz, std::size_t base, std::vector<BrickCover>& out) const {
+    std::array<std::uint64_t, width> touched{}, filled{};
+    std::array<double, 4> y_near, y_far;
+    for (std::size_t p = 0; p < 2; ++p) {
+      const std::size_t from = 2 * static_cast<std::size_t>(by) + p;
+      y.near[from].store(y_near.data() + 2 * p);
+      y.far[from].store(y_far.data() + 2 * p);
+    }
+    const int z_first = std::max(z.first - 4 * bz, 0), z_last = std::min(z.last - 4 * bz, 3);
+    const int y_first = std::max(y.first - 4 * by, 0), y_last = std::min(y.last - 4 * by, 3);
+    for (int k = z_first; k <= z_last; ++k) {
+      const auto layer = static_cast<std::size_t>(4 * bz + k) / 2;
+      const double z_near = k % 2 == 0 ? z.near[layer].first() : z.near[layer].second();
+      const double z_far = k % 2 == 0 ? z.far[layer].first() : z.far[layer].second();
+      for (int j = y_first; j <= y_last; ++j) {
+        const auto row = static_cast<std::size_t>(j);
+        const double near = r2 - (y_near[row] + z_near), far = r2 - (y_far[row] + z_far);
+        const int shift = 4 * j + 16 * k;
+        for (std::size_t b = 0; b < width; ++b) {
+          touched[b] |= std::uint64_t{compare_row<false>(x.near.data() + 2 * b, near)} << shift;
+        }
+        if (!opaque || !(far > 0.0)) continue;
+        for (std::size_t b = 0; b < width; ++b) {
+          filled[b] |= std::uint64_t{compare_row<true>(x.far.data() + 2 * b, far)} << shift;
+        }
+      }
+    }
+    for (std::size_t b = 0; b < width; ++b) {
+      if (touched[b] != 0) out.push_back({static_cast<std::uint32_t>(base + b), touched[b], filled[b]});
+    }
+  }
+
+  template <int width>
+  void all(const Lattice& lattice, std::vector<BrickCover>& out) const {
+    for (int bz = 0; bz < z.count(); ++bz) {
+      for (int by = 0; by < y.count(); ++by) {
+        bricks<width>(by, bz, lattice.brick_index({x.first_brick, y.first_brick + by, z.first_brick + bz}), out);
+      }
+    }
+  }
+};
+
 /// What is left of r^2 for the rows of one brick row of a sphere.
 void set_row(BrickRow<4>& row, const Squares<4>& sy, const Squares<4>& sz, double r2, bool opaque) {
   row.best_near = r2 - (sy.least_near + sz.least_near);
@@ -192,6 +280,18 @@ void sphere(const Lattice& lattice, const Ball& ball, Cover& out) {
   const Range x = ball.touched(ax, 0, out.outside), y = ball.touched(ay, 1, out.outside);
   const Range z = ball.touched(az, 2, out.outside);
   if (x.empty() || y.empty() || z.empty()) return;
+  SmallSphere small;
+  if (small.x.fits(x) && small.y.fits(y) && small.z.fits(z)) {
+    small.x.fill(ax, x, ball.centre.x, ball.margin);
+    small.y.fill(ay, y, ball.centre.y, ball.margin);
+    small.z.fill(az, z, ball.centre.z, ball.margin);
+    if (4 * (small.x.first_brick + small.x.count()) > ax.cells) small.x.cut(ax.cells);
+    small.r2 = ball.radius * ball.radius;
+    small.opaque = ball.opaque;
+    if (small.x.count() == 1) return small.all<1>(lattice, out.bricks);
+    if (small.x.count() == 2) return small.all<2>(lattice, out.bricks);
+    return small.all<3>(lattice, out.bricks);
+  }
   Line<edge> line(ax, x, ball.centre.x, ball.margin), rows(ay, y, ball.centre.y, ball.margin);
   const double r2 = ball.radius * ball.radius;
   for (std::int64_t bz = z.first / edge; bz <= z.last / edge; ++bz) {

@@ -20,6 +20,7 @@ struct PortablePair {
   static PortablePair both(double v) { return {v, v}; }
   double first() const { return a; }
   double second() const { return b; }
+  void store(double* to) const { to[0] = a, to[1] = b; }
   PortablePair operator+(const PortablePair& o) const { return {a + o.a, b + o.b}; }
   PortablePair operator-(const PortablePair& o) const { return {a - o.a, b - o.b}; }
   PortablePair operator*(const PortablePair& o) const { return {a * o.a, b * o.b}; }
@@ -51,6 +52,13 @@ std::uint32_t compare_rows(const PortablePair* x, const PortablePair* limit) {
   return bits;
 }
 
+/// One row of four cells: bit i is x[i] <= limit (< where strict).
+template <bool strict>
+std::uint32_t compare_row(const PortablePair* x, double limit) {
+  const auto bit = [&](double v) { return static_cast<std::uint32_t>(strict ? v < limit : v <= limit); };
+  return bit(x[0].a) | bit(x[0].b) << 1 | bit(x[1].a) << 2 | bit(x[1].b) << 3;
+}
+
 #if defined(__SSE2__)
 
 struct SsePair {
@@ -60,6 +68,7 @@ struct SsePair {
   static SsePair both(double s) { return {_mm_set1_pd(s)}; }
   double first() const { return _mm_cvtsd_f64(v); }
   double second() const { return _mm_cvtsd_f64(_mm_unpackhi_pd(v, v)); }
+  void store(double* to) const { _mm_storeu_pd(to, v); }
   SsePair operator+(const SsePair& o) const { return {_mm_add_pd(v, o.v)}; }
   SsePair operator-(const SsePair& o) const { return {_mm_sub_pd(v, o.v)}; }
   SsePair operator*(const SsePair& o) const { return {_mm_mul_pd(v, o.v)}; }
@@ -78,6 +87,12 @@ __m128i compare_four(const SsePair* x, __m128d limit) {
   const __m128d a = strict ? _mm_cmplt_pd(x[0].v, limit) : _mm_cmple_pd(x[0].v, limit);
   const __m128d b = strict ? _mm_cmplt_pd(x[1].v, limit) : _mm_cmple_pd(x[1].v, limit);
   return _mm_castps_si128(_mm_shuffle_ps(_mm_castpd_ps(a), _mm_castpd_ps(b), _MM_SHUFFLE(2, 0, 2, 0)));
+}
+
+template <bool strict>
+std::uint32_t compare_row(const SsePair* x, double limit) {
+  const __m128i four = compare_four<strict>(x, _mm_set1_pd(limit));
+  return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(four)));
 }
 
 template <int edge, bool strict>
