@@ -98,7 +98,7 @@ bool ViewVolume::may_touch_support(const Support& support) const {
 bool ViewVolume::may_touch_ball(const Vec3& centre, double radius) const {
   const Vec3 d = centre - apex_;
   const double margin = slack(centre, apex_) + 1e-14 * radius;
-  if (glm::length(d) - radius > range_ * (1.0 + 1e-14) + margin) return false;
+  if (std::isfinite(range_) && glm::length(d) - radius > range_ * (1.0 + 1e-14) + margin) return false;
   return may_touch_support([&](const Vec3& n) { return glm::dot(n, d) + radius + margin; });
 }
 

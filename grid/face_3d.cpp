@@ -41,6 +41,11 @@ bool Face3D::reset(int index, ViewGrid& grid, const ViewCone& cone, const Cell& 
   depth_.low = std::max({depth_.low, nearest(u_), nearest(v_), std::int64_t{1}});
   if (depth_.empty()) return false;
   u_base_ = grid.base(u_axis_) - viewer_u_;
+  u_stride_ = grid.stride(u_axis_);
+  d_stride_ = grid.stride(axis_);
+  v_stride_ = grid.stride(v_axis_);
+  d_base_ = grid.base(axis_) - viewer_d_;
+  v_base_ = grid.base(v_axis_) - viewer_v_;
   words_ = static_cast<std::size_t>((u_.high - u_base_) / 64 + 1);
   plane_.clear();
   std::size_t size = 0;
@@ -105,17 +110,6 @@ bool Face3D::scan(std::int64_t k, std::vector<std::uint64_t>& fresh, std::vector
   seen_ = seen;
   seen_depth_ = k;
   return seen.v.low <= seen.v.high;
-}
-
-Face3D::BrickRow Face3D::brick_row(std::int64_t k, std::int64_t v) const {
-  Cell start = cell(k, 0, v);
-  start.x += axis_ == 0 ? viewer_d_ : viewer_u_;
-  start.y += axis_ == 1 ? viewer_d_ : axis_ == 0 ? viewer_u_ : viewer_v_;
-  start.z += axis_ == 2 ? viewer_d_ : viewer_v_;
-  (u_axis_ == 0 ? start.x : start.y) = u_base_ + viewer_u_;
-  const auto low = [](std::int64_t c) { return static_cast<int>(c & 3); };
-  return {grid_->brick_of(start), grid_->stride(u_axis_),
-          axis_ == 0 ? low(start.x) + 16 * low(start.z) : 4 * low(start.y) + 16 * low(start.z)};
 }
 
 void Face3D::report(std::int64_t k, std::int64_t v, const std::uint64_t* found, std::vector<std::uint64_t>& fresh,

@@ -64,7 +64,12 @@ class Face3D {
     std::size_t first, stride;
     int shift;
   };
-  BrickRow brick_row(std::int64_t k, std::int64_t v) const;
+  BrickRow brick_row(std::int64_t k, std::int64_t v) const {
+    // From the window's first brick, whose corner has low bits 0 along every axis.
+    const auto d = static_cast<std::size_t>(sign_ * k - d_base_), row = static_cast<std::size_t>(v - v_base_);
+    return {(d >> 2) * d_stride_ + (row >> 2) * v_stride_, u_stride_,
+            static_cast<int>((d & 3) << (2 * axis_) | (row & 3) << (2 * v_axis_))};
+  }
   void report(std::int64_t k, std::int64_t v, const std::uint64_t* found, std::vector<std::uint64_t>& fresh,
               std::vector<std::size_t>& bricks);
   /// O of the cells of row v in plane k, for the words [w0, w1].
@@ -84,10 +89,12 @@ class Face3D {
   std::int64_t viewer_d_ = 0, viewer_u_ = 0, viewer_v_ = 0;
   bool narrow_ = true;  // the viewer is inside the lattice: what plane k - 1 shows limits plane k
   CellRange depth_, u_, v_;
-  std::int64_t u_base_ = 0;            // u of bit 0, at a brick's edge
-  std::size_t words_ = 0;              // words a row
-  std::vector<std::size_t> plane_;     // first word of each plane
-  std::vector<std::uint64_t> hidden_;  // H of this pyramid
+  std::int64_t u_base_ = 0;                                 // u of bit 0, at a brick's edge
+  std::int64_t d_base_ = 0, v_base_ = 0;                    // depth (signed) and v of the window's first cell, likewise
+  std::size_t u_stride_ = 0, d_stride_ = 0, v_stride_ = 0;  // bricks
+  std::size_t words_ = 0;                                   // words a row
+  std::vector<std::size_t> plane_;                          // first word of each plane
+  std::vector<std::uint64_t> hidden_;                       // H of this pyramid
 
   Patch seen_;  // bounding rectangle of the visible cells of the last plane scanned
   std::int64_t seen_depth_ = 0;
