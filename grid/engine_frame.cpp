@@ -16,6 +16,7 @@ namespace gridcull {
 namespace {
 
 constexpr std::uint8_t patience = 8;  // frames
+constexpr std::size_t ahead = 12;     // objects
 
 }  // namespace
 
@@ -66,18 +67,17 @@ void GridEngine::State::expire() {
   expired.clear();
   expiries.pop_expired(now, expired);
   try {
-    for (const Slot slot : expired) world.read_alone(slot);
+    for (std::size_t i = 0; i < expired.size(); ++i) {
+      // Hidden objects are many and seldom touched: ask for their memory some objects ahead.
+      if (i + ahead < expired.size()) world.prefetch(expired[i + ahead]);
+      world.read_alone(expired[i]);
+    }
   } catch (...) {
     for (const Slot slot : expired) expiries.push(slot, expiries.expiry(slot));
     throw;
   }
-  for (const Slot slot : expired) {
-    ObjectState& state = world.objects[slot];
-    ++stats.tbv_expired;
-    take_volume(slot);
-    lengthen_term(state);
-    give_volume(slot);
-  }
+  stats.tbv_expired += expired.size();
+  for (const Slot slot : expired) renew_volume(slot);
 }
 
 // Objects of the last PVS are discretised, those that did not move excepted.

@@ -199,17 +199,25 @@ TbvMatrix::Ball GridEngine::State::volume(Slot slot) const {
   return {ball.centre, ball.radius};
 }
 
-// Solid volumes are always right; an outline is used only where the engine can prove it: it lies wholly in the
-// lattice and encloses no viewer now, and viewers that jump are checked against it (note_viewers).
-void GridEngine::State::give_volume(Slot slot) {
+// The ball that holds the object from now until the expiry that it notes.
+TbvMatrix::Ball GridEngine::State::next_ball(Slot slot) {
   ObjectState& state = world.objects[slot];
   double seconds = std::numeric_limits<double>::infinity();
   if (state.max_speed > 0.0) seconds = TbvTerm::spread(state.term, slot, state.renewals++);
   // Far from time 0 the sum is rounded, perhaps to a later time: the volume must hold until that.
   const double expiry = now + seconds;
-  TbvMatrix::Ball ball{state.pose.position, TbvTerm::radius(state.max_speed, expiry - now, state.reach)};
   expiries.push(slot, expiry);
+  return {state.pose.position, TbvTerm::radius(state.max_speed, expiry - now, state.reach)};
+}
+
+void GridEngine::State::give_volume(Slot slot) {
   ++volumes;
+  place_volume(slot, next_ball(slot));
+}
+
+// Solid volumes are always right; an outline is used only where the engine can prove it: it lies wholly in the
+// lattice and encloses no viewer now, and viewers that jump are checked against it (note_viewers).
+void GridEngine::State::place_volume(Slot slot, const TbvMatrix::Ball& ball) {
   if (world.silhouettes) {
     set_outside(slot, !world.silhouettes->enter(slot, {ball.centre, ball.radius}));
     return;
@@ -219,8 +227,21 @@ void GridEngine::State::give_volume(Slot slot) {
     set_outside(slot, true);
     return;
   }
+  ObjectState& state = world.objects[slot];
   state.hollow = options.tbv == TbvMode::hollow && world.hollow.insert(slot, ball, viewers.cells());
   if (!state.hollow) world.tbv.insert(slot, ball);
+}
+
+// Most volumes stay in the same place of T when they expire, which costs little.
+void GridEngine::State::renew_volume(Slot slot) {
+  const bool stays = options.tbv == TbvMode::solid && world.tbv.holds(slot);
+  if (!stays) take_volume(slot);
+  lengthen_term(world.objects[slot]);
+  if (!stays) return give_volume(slot);
+  const TbvMatrix::Ball ball = next_ball(slot);
+  if (world.tbv.fits(ball)) return world.tbv.renew(slot, ball);
+  world.tbv.erase(slot);
+  place_volume(slot, ball);
 }
 
 void GridEngine::State::take_volume(Slot slot) {

@@ -42,6 +42,10 @@ struct GridEngine::State {
   void unlist_active(Slot slot);
   void hide(Slot slot);
   void give_volume(Slot slot);
+  /// Gives an expired volume a new term; its slot has left the queue.
+  void renew_volume(Slot slot);
+  TbvMatrix::Ball next_ball(Slot slot);
+  void place_volume(Slot slot, const TbvMatrix::Ball& ball);
   /// The ball of a hidden object's volume.
   TbvMatrix::Ball volume(Slot slot) const;
   /// Doubles the object's term if the volume it then gets stays clear of what somebody sees.

@@ -45,6 +45,12 @@ struct GridWorld {
   /// Whether a block that the ball reaches was seen in this or the last frame. The ball lies in the lattice.
   bool near_seen(const TbvMatrix::Ball& ball) const;
 
+  /// Hints that a hidden object will be read and its volume renewed soon.
+  void prefetch(Slot slot) const {
+    objects.prefetch(slot);
+    tbv.prefetch(slot);
+  }
+
   /// The object's pose in this frame: asked from the source once a frame, counted. Any thread.
   Pose read(Slot slot);
   /// The same while no views are being answered.

@@ -82,6 +82,10 @@ class ObjectTable {
   ObjectState& operator[](Slot slot) { return states_[slot]; }
   const ObjectState& operator[](Slot slot) const { return states_[slot]; }
   std::size_t size() const { return states_.size(); }
+  void prefetch(Slot slot) const {
+    const auto* state = reinterpret_cast<const char*>(&states_[slot]);
+    for (std::size_t byte = 0; byte < sizeof(ObjectState); byte += 64) __builtin_prefetch(state + byte);
+  }
 
   std::uint64_t bytes() const { return states_.capacity() * sizeof(ObjectState) + slots_.bytes(); }
 

@@ -10,7 +10,7 @@ namespace gridcull {
 TbvMatrix::TbvMatrix(const Lattice& lattice) : lattice_(lattice), box_(lattice.box()) {
   const Cell b = lattice.bricks();
   blocks_ = {(b.x + 1) / 2, (b.y + 1) / 2, (b.z + 1) / 2};
-  counts_.assign(static_cast<std::size_t>(blocks_.x * blocks_.y * blocks_.z), 0);
+  counts_.assign(lattice.brick_count(), 0);
   // Level 0 is a brick wide; the last one holds the whole lattice in one cell.
   const Cell n = lattice.cells();
   for (int shift = lattice.brick_shift();; ++shift) {
@@ -46,27 +46,67 @@ std::uint32_t TbvMatrix::level_cell(const Level& level, const Cell& c) const {
                                     (c.x >> level.shift));
 }
 
-TbvMatrix::BlockSpan TbvMatrix::span_of(const Ball& ball) const {
-  // The second margin covers what near_index() may be off.
-  const double r = ball.radius + 2.0 * lattice_.margin();
+std::uint32_t TbvMatrix::home_cell(const Level& level, const Ball& ball) const {
+  const auto index = [&](int axis) {
+    return axis < lattice_.dimension() ? lattice_.near_index(axis, ball.centre[axis]) : 0;
+  };
+  return level_cell(level, {index(0), index(1), index(2)});
+}
+
+TbvMatrix::BlockSpan TbvMatrix::cells_of(const Vec3& low, const Vec3& high, int shift) const {
+  // Two margins: one for the ball tests, one for what near_index() may be off.
+  const double margin = 2.0 * lattice_.margin();
   BlockSpan span{};
-  const int shift = lattice_.brick_shift() + 1;
   for (int k = 0; k < lattice_.dimension(); ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    span.low[axis] = lattice_.near_index(k, ball.centre[k] - r) >> shift;
-    span.high[axis] = lattice_.near_index(k, ball.centre[k] + r) >> shift;
+    span.low[axis] = lattice_.near_index(k, low[k] - margin) >> shift;
+    span.high[axis] = lattice_.near_index(k, high[k] + margin) >> shift;
   }
   return span;
 }
 
-void TbvMatrix::count(const Ball& ball, std::uint32_t step) {
-  const BlockSpan span = span_of(ball);
+TbvMatrix::BlockSpan TbvMatrix::span_of(const Ball& ball) const {
+  return cells_of(ball.centre - Vec3(ball.radius), ball.centre + Vec3(ball.radius), lattice_.brick_shift() + 1);
+}
+
+TbvMatrix::BlockSpan TbvMatrix::bricks_of(const Bounds& box) const {
+  return cells_of(box.min, box.max, lattice_.brick_shift());
+}
+
+void TbvMatrix::count(const BlockSpan& span, std::uint32_t step) {
   for (std::int64_t z = span.low[2]; z <= span.high[2]; ++z) {
     for (std::int64_t y = span.low[1]; y <= span.high[1]; ++y) {
-      const std::size_t row = block_index(0, y, z);
+      const std::size_t row = lattice_.brick_index({0, y, z});
       for (std::int64_t x = span.low[0]; x <= span.high[0]; ++x) counts_[row + static_cast<std::size_t>(x)] += step;
     }
   }
+}
+
+void TbvMatrix::set_box(Home& home, const Bounds& box) {
+  const BlockSpan before = home.box.empty() ? BlockSpan{{0, 0, 0}, {-1, -1, -1}} : bricks_of(home.box);
+  const BlockSpan after = box.empty() ? BlockSpan{{0, 0, 0}, {-1, -1, -1}} : bricks_of(box);
+  home.box = box;
+  if (before == after) return;
+  count(before, static_cast<std::uint32_t>(-1));
+  count(after, 1);
+}
+
+void TbvMatrix::grow_box(Home& home, const Ball& ball) {
+  if (home.size > 1 && home.left <= 2 * home.size) {
+    const Vec3 low = ball.centre - Vec3(ball.radius), high = ball.centre + Vec3(ball.radius);
+    const Bounds& b = home.box;
+    if (low.x >= b.min.x && low.y >= b.min.y && low.z >= b.min.z && high.x <= b.max.x && high.y <= b.max.y &&
+        high.z <= b.max.z) {
+      return;
+    }
+    Bounds box = b;
+    box.add_ball(ball.centre, ball.radius);
+    return set_box(home, box);
+  }
+  home.left = 0;
+  Bounds box;
+  for (std::uint32_t i = home.head; i != none; i = links_[i].after) box.add_ball(balls_[i].centre, balls_[i].radius);
+  set_box(home, box);
 }
 
 void TbvMatrix::insert(Slot slot, const Ball& ball) {
@@ -75,27 +115,16 @@ void TbvMatrix::insert(Slot slot, const Ball& ball) {
   link.level = level_for(ball.radius);
   Level& level = levels_[link.level];
   if (level.homes.empty()) level.homes.resize(static_cast<std::size_t>(level.cells.x * level.cells.y * level.cells.z));
-  const auto index = [&](int axis) {
-    return axis < lattice_.dimension() ? lattice_.near_index(axis, ball.centre[axis]) : 0;
-  };
-  link.cell = level_cell(level, {index(0), index(1), index(2)});
+  link.cell = home_cell(level, ball);
   Home& home = level.homes[link.cell];
   link.before = none;
   link.after = home.head;
   if (link.after != none) links_[link.after].before = slot;
   home.head = slot;
   ++home.size;
-  if (home.size == 1 || home.left > home.size) {
-    home.left = 0;
-    home.box = Bounds{};
-    for (std::uint32_t i = home.head; i != none; i = links_[i].after)
-      home.box.add_ball(balls_[i].centre, balls_[i].radius);
-  } else {
-    home.box.add_ball(ball.centre, ball.radius);
-  }
   ++level.size;
   ++size_;
-  count(ball, 1);
+  grow_box(home, ball);
 }
 
 void TbvMatrix::erase(Slot slot) {
@@ -103,51 +132,69 @@ void TbvMatrix::erase(Slot slot) {
   Level& level = levels_[link.level];
   Home& home = level.homes[link.cell];
   (link.before == none ? home.head : links_[link.before].after) = link.after;
-  --home.size;
-  ++home.left;
   if (link.after != none) links_[link.after].before = link.before;
   link.level = none;
+  --home.size;
+  ++home.left;
   --level.size;
   --size_;
-  count(balls_[slot], static_cast<std::uint32_t>(-1));
+  if (home.size == 0) set_box(home, Bounds{});
+}
+
+void TbvMatrix::renew(Slot slot, const Ball& ball) {
+  if (holds(slot)) {
+    const Link& link = links_[slot];
+    Level& level = levels_[link.level];
+    if (level_for(ball.radius) == link.level && home_cell(level, ball) == link.cell) {
+      Home& home = level.homes[link.cell];
+      balls_[slot] = ball;
+      ++home.left;
+      return grow_box(home, ball);
+    }
+    erase(slot);
+  }
+  insert(slot, ball);
 }
 
 namespace {
 
-/// The cells of a brick that `bits` touches along each axis, as bits 0 .. edge - 1.
+/// The cells of a brick that `bits` (not 0) touches along each axis, as bits 0 .. edge - 1.
 std::array<unsigned, 3> shadows(std::uint64_t bits, bool solid) {
-  std::array<unsigned, 3> along{};
-  const int edge = solid ? 4 : 8;
-  const std::uint64_t row_mask = solid ? 0xF : 0xFF;
-  for (int row = 0; row < 64 / edge; ++row) {
-    const auto cells = static_cast<unsigned>((bits >> (edge * row)) & row_mask);
-    if (cells == 0) continue;
-    along[0] |= cells;
-    along[1] |= 1u << (row % edge);
-    along[2] |= 1u << (row / edge);
+  // Rows folded on one another; then the rows that hold anything, one bit each, folded likewise.
+  std::uint64_t x = bits | bits >> 32, rows = bits;
+  x |= x >> 16;
+  x |= x >> 8;
+  if (!solid) {
+    for (const int step : {4, 2, 1}) rows |= rows >> step;
+    // Bits 0, 8, 16, ... to the top byte: the products land on distinct bits.
+    const std::uint64_t y = ((rows & 0x0101'0101'0101'0101ull) * 0x0102'0408'1020'4080ull) >> 56;
+    return {static_cast<unsigned>(x & 0xFF), static_cast<unsigned>(y), 1};
   }
-  return along;
+  x |= x >> 4;
+  rows |= rows >> 2;
+  rows = (rows | rows >> 1) & 0x1111'1111'1111'1111ull;
+  std::uint64_t y = rows | rows >> 32;
+  y |= y >> 16;
+  const auto four = [](std::uint64_t v) { return static_cast<unsigned>((v & 0x1111u) * 0x1248u >> 12 & 0xFu); };
+  unsigned z = 0;
+  for (int layer = 0; layer < 4; ++layer) z |= ((rows >> (16 * layer) & 0xFFFFu) != 0 ? 1u : 0u) << layer;
+  return {static_cast<unsigned>(x & 0xF), four(y), z};
 }
 
 }  // namespace
 
 TbvMatrix::BrickLines TbvMatrix::lines_of(const Cell& corner, std::uint64_t bits) const {
   BrickLines lines{};
-  const std::array<std::int64_t, 3> first{corner.x, corner.y, corner.z};
-  for (int k = 0; k < lattice_.dimension(); ++k) {
-    const auto axis = static_cast<std::size_t>(k);
-    for (int i = 0; i <= lattice_.brick_edge(); ++i)
-      lines.at[axis][static_cast<std::size_t>(i)] = lattice_.boundary(k, first[axis] + i);
-  }
+  lines.corner = corner;
   lines.low = Vec3(-std::numeric_limits<double>::infinity());
   lines.high = Vec3(std::numeric_limits<double>::infinity());
   // Twice the margin of the ball test, so that the filter never says no to what that would find.
   const std::array<unsigned, 3> along = shadows(bits, lattice_.dimension() == 3);
+  const std::array<std::int64_t, 3> first{corner.x, corner.y, corner.z};
   for (int k = 0; k < lattice_.dimension(); ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    const auto& at = lines.at[axis];
-    lines.low[k] = at[static_cast<std::size_t>(std::countr_zero(along[axis]))] - 2.0 * lattice_.margin();
-    lines.high[k] = at[static_cast<std::size_t>(std::bit_width(along[axis]))] + 2.0 * lattice_.margin();
+    lines.low[k] = lattice_.boundary(k, first[axis] + std::countr_zero(along[axis])) - 2.0 * lattice_.margin();
+    lines.high[k] = lattice_.boundary(k, first[axis] + std::bit_width(along[axis])) + 2.0 * lattice_.margin();
   }
   return lines;
 }
@@ -155,11 +202,12 @@ TbvMatrix::BrickLines TbvMatrix::lines_of(const Cell& corner, std::uint64_t bits
 bool TbvMatrix::ball_touches(const Ball& ball, const BrickLines& lines, std::uint64_t bits) const {
   const auto edge = static_cast<std::size_t>(lattice_.brick_edge());
   const double r = ball.radius + lattice_.margin();
+  const std::array<std::int64_t, 3> first{lines.corner.x, lines.corner.y, lines.corner.z};
   // Squared distance of the centre to cell i along an axis.
   const auto square = [&](int axis, std::size_t i) {
-    const auto& at = lines.at[static_cast<std::size_t>(axis)];
+    const std::int64_t at = first[static_cast<std::size_t>(axis)] + static_cast<std::int64_t>(i);
     const double c = ball.centre[axis];
-    const double gap = std::max({at[i] - c, c - at[i + 1], 0.0});
+    const double gap = std::max({lattice_.boundary(axis, at) - c, c - lattice_.boundary(axis, at + 1), 0.0});
     return gap * gap;
   };
   std::array<double, 8> squares_x{}, squares_y{};

@@ -3,8 +3,9 @@
 //
 // The paper enters a volume's id into every cell that it spans. Here a volume is entered once, in the cell
 // of the level whose side is at least its radius and that holds its centre ("loose": it reaches at most a
-// side beyond), and every block of two bricks along each axis counts the volumes that may touch it. A block that
-// nobody's volume may touch costs one load in the traversal; renewing a volume costs a few stores.
+// side beyond). The cell keeps a box around its volumes, and every brick counts the boxes that reach it: a
+// brick that nobody's box reaches costs one load in the traversal, and renewing a volume where it was costs a few
+// stores, whatever its size, because boxes seldom change.
 #pragma once
 
 #include <algorithm>
@@ -35,12 +36,13 @@ class TbvMatrix {
   /// axis that hold every cell the ball may touch.
   struct BlockSpan {
     std::array<std::int64_t, 3> low, high;
+    bool operator==(const BlockSpan&) const = default;
   };
   BlockSpan span_of(const Ball& ball) const;
   std::size_t block_index(std::int64_t x, std::int64_t y, std::int64_t z) const {
     return static_cast<std::size_t>((z * blocks_.y + y) * blocks_.x + x);
   }
-  std::size_t block_count() const { return counts_.size(); }
+  std::size_t block_count() const { return static_cast<std::size_t>(blocks_.x * blocks_.y * blocks_.z); }
   /// The block that holds a brick.
   std::size_t block_of(std::size_t brick) const {
     const Cell corner = lattice_.brick_corner(brick);
@@ -53,14 +55,21 @@ class TbvMatrix {
   /// The slot must not be in the matrix; `ball` must fit.
   void insert(Slot slot, const Ball& ball);
   void erase(Slot slot);
+  /// Erases the slot if it is there and inserts it, at little cost where its place stays the same.
+  void renew(Slot slot, const Ball& ball);
+  /// Hints that the slot will be renewed soon.
+  void prefetch(Slot slot) const {
+    __builtin_prefetch(&links_[slot]);
+    __builtin_prefetch(&balls_[slot]);
+  }
   bool holds(Slot slot) const { return slot < links_.size() && links_[slot].level != none; }
   /// The slot's ball, also of volumes kept elsewhere (outlines, volumes beyond the lattice).
   const Ball& ball(Slot slot) const { return balls_[slot]; }
   void set_ball(Slot slot, const Ball& ball) { balls_[slot] = ball; }
   std::uint64_t size() const { return size_; }
 
-  /// Whether some volume may touch the block.
-  bool may_touch(std::size_t block) const { return counts_[block] != 0; }
+  /// Whether some volume may touch the brick.
+  bool may_touch(std::size_t brick) const { return counts_[brick] != 0; }
 
   /// Calls f(slot) for every volume that may touch one of the cells `bits` of the brick and for which
   /// wanted(slot). f must not change the matrix. Returns the number of volumes looked at.
@@ -75,8 +84,8 @@ class TbvMatrix {
     std::uint32_t before = none, after = none, cell = none, level = none;
   };
   /// A level's cell: its volumes and a box around them, which spares looking at crowds that stay away from
-  /// the cell's loose border. The box only grows until as many volumes have left as are there; then it is
-  /// made anew.
+  /// the cell's loose border. The box only grows until twice as many volumes have left as are there; then it
+  /// is made anew.
   struct Home {
     std::uint32_t head = none;
     std::uint32_t size = 0;
@@ -93,12 +102,20 @@ class TbvMatrix {
 
   std::uint32_t level_for(double radius) const;
   std::uint32_t level_cell(const Level& level, const Cell& c) const;
-  /// Adds `step` to the count of every block that the ball's box touches.
-  void count(const Ball& ball, std::uint32_t step);
-  /// Boundaries of a brick's cells along each axis, and the box around the cells asked about; metres.
+  std::uint32_t home_cell(const Level& level, const Ball& ball) const;
+  /// Takes the ball, whose link hangs in the home already, into the home's box.
+  void grow_box(Home& home, const Ball& ball);
+  void set_box(Home& home, const Bounds& box);
+  /// Bricks that hold every cell the box may touch.
+  BlockSpan bricks_of(const Bounds& box) const;
+  /// Adds `step` to the count of every brick of the span.
+  void count(const BlockSpan& span, std::uint32_t step);
+  /// First and last index along each axis, after a shift, of the cells that [low, high] may touch.
+  BlockSpan cells_of(const Vec3& low, const Vec3& high, int shift) const;
+  /// A brick's lowest cell, and the box around the cells asked about, metres, grown by the margin.
   struct BrickLines {
-    std::array<std::array<double, 9>, 3> at;
-    Vec3 low, high;  // grown by the margin
+    Cell corner;
+    Vec3 low, high;
   };
   /// Cheap filter: whether the ball reaches the box.
   static bool near(const Ball& ball, const BrickLines& lines) {
@@ -118,7 +135,7 @@ class TbvMatrix {
   const Lattice& lattice_;
   std::vector<Level> levels_;
   Cell blocks_;                        // along each axis
-  std::vector<std::uint32_t> counts_;  // per block
+  std::vector<std::uint32_t> counts_;  // per brick: boxes of homes that may touch it
   Bounds box_;                         // of the lattice
   std::vector<Link> links_;
   std::vector<Ball> balls_;

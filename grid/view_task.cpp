@@ -147,8 +147,7 @@ void ViewTask::traverse() {
 void ViewTask::look(std::size_t brick, std::uint64_t bits) {
   GridWorld& world = *world_;
   const std::size_t lattice_brick = grid_.lattice_brick(brick);
-  const bool solid = world.tbv.may_touch(world.tbv.block_of(lattice_brick)),
-             hollow = world.hollow.may_touch(lattice_brick);
+  const bool solid = world.tbv.may_touch(lattice_brick), hollow = world.hollow.may_touch(lattice_brick);
   if (!solid && !hollow) return;
   pending_.clear();
   const auto wanted = [&](Slot slot) { return stamps_[slot] != stamp_ && slot != rides_; };
