@@ -147,6 +147,21 @@ void add_sides(const std::vector<Vec3>& points, Hull& hull) {
   hull.margin = widest * (1.0 + 1e-15) + 1e-14 * size;
 }
 
+bool box_holds(const std::vector<Vec3>& points, const Vec3& point) {
+  Bounds box;
+  for (const Vec3& p : points) box.add(p);
+  for (int k = 0; k < 3; ++k) {
+    if (!(box.min[k] < point[k] && point[k] < box.max[k])) return false;
+  }
+  return true;
+}
+
+bool facets_hold(const std::vector<Vec3>& points, const std::vector<Triangle>& facets, const Vec3& point) {
+  return std::all_of(facets.begin(), facets.end(), [&](const Triangle& t) {
+    return orientation(points[t[0]], points[t[1]], points[t[2]], point) < 0;
+  });
+}
+
 }  // namespace
 
 Hull convex_hull(const std::vector<Vec3>& points) {
@@ -159,17 +174,13 @@ Hull convex_hull(const std::vector<Vec3>& points) {
 }
 
 bool hull_holds(const std::vector<Vec3>& points, const Vec3& point) {
-  Bounds box;
-  for (const Vec3& p : points) box.add(p);
-  for (int k = 0; k < 3; ++k) {
-    if (!(box.min[k] < point[k] && point[k] < box.max[k])) return false;
-  }
+  if (!box_holds(points, point)) return false;
   const auto start = first_tetrahedron(points);
-  if (!start) return false;
-  const std::vector<Triangle> facets = hull_facets(points, *start);
-  return std::all_of(facets.begin(), facets.end(), [&](const Triangle& t) {
-    return orientation(points[t[0]], points[t[1]], points[t[2]], point) < 0;
-  });
+  return start && facets_hold(points, hull_facets(points, *start), point);
+}
+
+bool hull_holds(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, const Vec3& point) {
+  return box_holds(points, point) && facets_hold(points, triangles, point);
 }
 
 }  // namespace gridcull

@@ -24,5 +24,8 @@ Hull convex_hull(const std::vector<Vec3>& points);
 
 /// Whether `point` lies in the open interior of the hull of `points`.
 bool hull_holds(const std::vector<Vec3>& points, const Vec3& point);
+/// The same for a hull whose triangles are known: allocates nothing.
+bool hull_holds(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                const Vec3& point);
 
 }  // namespace gridcull

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <type_traits>
 #include <utility>
 
 #include "gridcull/core/hull.h"
@@ -97,10 +98,36 @@ void merge_bricks(std::vector<BrickCover>& bricks) {
   bricks.resize(kept);
 }
 
+// Shapes without anything prepared.
+template <class S>
+constexpr bool is_plain =
+    std::is_same_v<S, Disc> || std::is_same_v<S, Sphere> || std::is_same_v<S, Rectangle> || std::is_same_v<S, Cuboid>;
+
+void cover_plain(const Disc& s, const Lattice& lattice, const Pose& pose, CoverScratch&, Cover& out) {
+  ball(lattice, pose.position, s.radius, true, out);
+}
+void cover_plain(const Sphere& s, const Lattice& lattice, const Pose& pose, CoverScratch&, Cover& out) {
+  ball(lattice, pose.position, s.radius, true, out);
+}
+void cover_plain(const Rectangle& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) {
+  set_box(scratch.body, pose, {0.5 * s.size.x, 0.5 * s.size.y, 0.0}, true);
+  convex_planar(lattice, scratch.body, lattice.margin(magnitude_of(scratch.body.bounds)), out.bricks, out.outside);
+}
+void cover_plain(const Cuboid& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) {
+  const bool upright = is_upright(rotation_of(pose.orientation));
+  ConvexBody& body = scratch.body;
+  set_box(body, pose, 0.5 * s.size, upright);
+  const double margin = lattice.margin(magnitude_of(body.bounds));
+  if (!upright) return convex(lattice, body, margin, out);
+  scratch.tiles.clear();
+  convex_planar(lattice, body, margin, scratch.tiles, out.outside);
+  extrude(lattice, scratch.tiles, body.bounds.min.z, body.bounds.max.z, margin, out);
+}
+
 }  // namespace
 
 struct PreparedShape::Detail {
-  explicit Detail(const Shape& s) : shape(s), reach(reach_of(s)) {
+  explicit Detail(const Shape& s) : shape(s) {
     if (const auto* p = std::get_if<Polygon>(&shape)) outline = merged_outline(p->vertices);
     if (const auto* p = std::get_if<Prism>(&shape)) outline = merged_outline(p->vertices);
     if (const auto* p = std::get_if<Polyline>(&shape)) outline = p->vertices;
@@ -108,34 +135,17 @@ struct PreparedShape::Detail {
   }
 
   Shape shape;
-  double reach;
-  std::vector<Vec2> outline;      ///< local
-  std::vector<ConvexSlab> sides;  ///< Convex: local, reference 0
-  std::vector<HullEdge> edges;    ///< Convex
+  std::vector<Vec2> outline;                            ///< local
+  std::vector<ConvexSlab> sides;                        ///< Convex: local, reference 0
+  std::vector<HullEdge> edges;                          ///< Convex
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Convex: facets, outward
 
   void prepare(const Convex& s);
   void place(const Vec3* local, std::size_t count, const Pose& pose, ConvexBody& body, std::vector<Vec3>& world) const;
 
-  void cover(const Disc& s, const Lattice& lattice, const Pose& pose, CoverScratch&, Cover& out) const {
-    ball(lattice, pose.position, s.radius, true, out);
-  }
-  void cover(const Sphere& s, const Lattice& lattice, const Pose& pose, CoverScratch&, Cover& out) const {
-    ball(lattice, pose.position, s.radius, true, out);
-  }
-  void cover(const Rectangle& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
-    set_box(scratch.body, pose, {0.5 * s.size.x, 0.5 * s.size.y, 0.0}, true);
-    convex_planar(lattice, scratch.body, lattice.margin(magnitude_of(scratch.body.bounds)), out.bricks, out.outside);
-  }
-  void cover(const Cuboid& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
-    const bool upright = is_upright(rotation_of(pose.orientation));
-    ConvexBody& body = scratch.body;
-    set_box(body, pose, 0.5 * s.size, upright);
-    const double margin = lattice.margin(magnitude_of(body.bounds));
-    if (!upright) return convex(lattice, body, margin, out);
-    scratch.tiles.clear();
-    convex_planar(lattice, body, margin, scratch.tiles, out.outside);
-    extrude(lattice, scratch.tiles, body.bounds.min.z, body.bounds.max.z, margin, out);
-  }
+  template <class S>
+  requires is_plain<S>
+  void cover(const S&, const Lattice&, const Pose&, CoverScratch&, Cover&) const {}  // never kept here
   void cover(const Polygon&, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
     cover_plane(lattice, pose, true, scratch, out);
   }
@@ -164,6 +174,7 @@ struct PreparedShape::Detail {
 void PreparedShape::Detail::prepare(const Convex& s) {
   const Hull hull = convex_hull(s.vertices);
   edges = edges_of(hull, s.vertices);
+  triangles = hull.triangles;
   for (const HalfSpace& side : hull.sides) {
     ConvexSlab slab = slab_around(side.normal, Vec3(0.0), s.vertices);
     slab.inner_low = side.offset + hull.margin;
@@ -223,28 +234,79 @@ void PreparedShape::Detail::cover(const Faces& s, const Lattice& lattice, const 
   if (s.triangles.size() > 1) merge_bricks(out.bricks);
 }
 
-PreparedShape::PreparedShape(const Shape& shape) : detail_(std::make_unique<Detail>(shape)) {}
+PreparedShape::PreparedShape(const Shape& shape) {
+  const auto take = [&](const auto& s) {
+    if constexpr (is_plain<std::decay_t<decltype(s)>>) {
+      shape_ = s;
+    } else {
+      shape_ = std::make_unique<const Detail>(shape);
+    }
+  };
+  std::visit(take, shape);
+}
 PreparedShape::~PreparedShape() = default;
 PreparedShape::PreparedShape(PreparedShape&&) noexcept = default;
 PreparedShape& PreparedShape::operator=(PreparedShape&&) noexcept = default;
 
-const Shape& PreparedShape::shape() const { return detail_->shape; }
-std::uint64_t PreparedShape::bytes() const {
-  std::uint64_t bytes = sizeof(Detail) + detail_->outline.capacity() * sizeof(Vec2) +
-                        detail_->sides.capacity() * sizeof(ConvexSlab) + detail_->edges.capacity() * sizeof(HullEdge);
-  const auto add = [&](const auto& shape) {
-    if constexpr (requires { shape.vertices; }) bytes += shape.vertices.capacity() * sizeof(shape.vertices[0]);
-    if constexpr (requires { shape.triangles; }) bytes += shape.triangles.capacity() * sizeof(shape.triangles[0]);
+/// Calls f(const Shape&).
+template <class F>
+auto PreparedShape::with_shape(F&& f) const {
+  const auto call = [&](const auto& s) {
+    if constexpr (requires { s->shape; }) {
+      return f(s->shape);
+    } else {
+      return f(Shape(s));
+    }
   };
-  std::visit(add, detail_->shape);
+  return std::visit(call, shape_);
+}
+
+Shape PreparedShape::shape() const {
+  return with_shape([](const Shape& s) { return s; });
+}
+
+double PreparedShape::reach() const {
+  return with_shape([](const Shape& s) { return reach_of(s); });
+}
+
+std::uint64_t PreparedShape::bytes() const {
+  const auto* held = std::get_if<std::unique_ptr<const Detail>>(&shape_);
+  if (held == nullptr) return 0;
+  const Detail& d = **held;
+  std::uint64_t bytes = sizeof(Detail) + d.outline.capacity() * sizeof(Vec2) + d.sides.capacity() * sizeof(ConvexSlab) +
+                        d.edges.capacity() * sizeof(HullEdge) + d.triangles.capacity() * sizeof(d.triangles[0]);
+  const auto add = [&](const auto& s) {
+    if constexpr (requires { s.vertices; }) bytes += s.vertices.capacity() * sizeof(s.vertices[0]);
+    if constexpr (requires { s.triangles; }) bytes += s.triangles.capacity() * sizeof(s.triangles[0]);
+  };
+  std::visit(add, d.shape);
   return bytes;
 }
 
-double PreparedShape::reach() const { return detail_->reach; }
+bool PreparedShape::holds(const Pose& pose, const Vec3& point) const {
+  if (const auto* held = std::get_if<std::unique_ptr<const Detail>>(&shape_)) {
+    if (const auto* hull = std::get_if<Convex>(&(*held)->shape)) {
+      return hull_holds(hull->vertices, (*held)->triangles,
+                        rotation_of(pose.orientation).inverse(point - pose.position));
+    }
+  }
+  return with_shape([&](const Shape& s) { return interior_holds(s, pose, point); });
+}
+
+bool PreparedShape::may_touch(const ViewVolume& volume, const Pose& pose) const {
+  return with_shape([&](const Shape& s) { return volume.may_touch(s, pose); });
+}
 
 void PreparedShape::cover(const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const {
   out.clear();
-  std::visit([&](const auto& s) { detail_->cover(s, lattice, pose, scratch, out); }, detail_->shape);
+  const auto fill = [&](const auto& s) {
+    if constexpr (requires { s->shape; }) {
+      std::visit([&](const auto& t) { s->cover(t, lattice, pose, scratch, out); }, s->shape);
+    } else {
+      cover_plain(s, lattice, pose, scratch, out);
+    }
+  };
+  std::visit(fill, shape_);
 }
 
 }  // namespace gridcull

@@ -10,9 +10,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "gridcull/core/object.h"
+#include "gridcull/core/view_volume.h"
 #include "gridcull/grid/cover_scratch.h"
 #include "gridcull/grid/lattice.h"
 
@@ -29,7 +31,8 @@ struct Cover {
   }
 };
 
-/// A shape with what discretising it needs computed once (hull sides, merged outlines).
+/// A shape with what discretising it needs computed once (hull sides, merged outlines). Balls and boxes, of which
+/// worlds hold most, take no memory of their own.
 class PreparedShape {
  public:
   /// The shape must be valid.
@@ -38,17 +41,26 @@ class PreparedShape {
   PreparedShape(PreparedShape&&) noexcept;
   PreparedShape& operator=(PreparedShape&&) noexcept;
 
-  const Shape& shape() const;
-  double reach() const;  ///< reach_of(shape)
+  /// A copy.
+  Shape shape() const;
+  double reach() const;  ///< reach_of(shape())
   /// Bytes held on the heap: the shape and what was computed for it.
   std::uint64_t bytes() const;
+
+  /// interior_holds(shape(), pose, point), which allocates nothing here.
+  bool holds(const Pose& pose, const Vec3& point) const;
+  /// volume.may_touch(shape(), pose).
+  bool may_touch(const ViewVolume& volume, const Pose& pose) const;
 
   /// Fills `out`. touched is an over-estimate, opaque an under-estimate (empty for thin shapes).
   void cover(const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const;
 
  private:
   struct Detail;
-  std::unique_ptr<Detail> detail_;
+  template <class F>
+  auto with_shape(F&& f) const;
+
+  std::variant<Disc, Rectangle, Sphere, Cuboid, std::unique_ptr<const Detail>> shape_;
 };
 
 /// Cells that the closed ball (2D: disc) may touch; opaque stays 0.

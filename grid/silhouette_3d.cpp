@@ -212,7 +212,7 @@ void Silhouette3D::look(Slot slot) {
 
 bool Silhouette3D::holds_viewpoint(Slot slot) const {
   const ObjectState& state = world_->objects[slot];
-  return interior_holds(state.shape->shape(), state.pose, volume_->apex());
+  return state.shape->holds(state.pose, volume_->apex());
 }
 
 SightFrame Silhouette3D::sight(Slot slot) const {
@@ -282,7 +282,7 @@ bool Silhouette3D::in_view(Slot slot) const {
   if (volume_->all_round() && !std::isfinite(volume_->range())) return true;
   const ObjectState& state = world_->objects[slot];
   if (!volume_->may_touch_ball(state.pose.position, state.reach)) return false;
-  return state.round || volume_->may_touch(state.shape->shape(), state.pose);
+  return state.round || state.shape->may_touch(*volume_, state.pose);
 }
 
 void Silhouette3D::hide_behind(Slot slot) {

@@ -50,6 +50,14 @@ class ViewGrid {
   }
   /// The lattice's index of a window brick.
   std::size_t lattice_brick(std::size_t brick) const;
+  /// Calls f(brick, lattice brick) for every brick of the window.
+  template <class F>
+  void for_each_brick(F&& f) const {
+    for (std::size_t brick = 0; brick < count_;) {
+      const std::size_t row = lattice_brick(brick);
+      for (std::size_t x = 0; x < bricks_[0]; ++x) f(brick++, row + x);
+    }
+  }
   /// The window's index of a lattice brick; false when it lies outside the window.
   bool window_brick(std::size_t lattice_brick, std::size_t& brick) const;
 

@@ -110,7 +110,7 @@ void ViewTask::find_containers() {
   }
   for (const Slot slot : pending_) {
     const ObjectState& state = world.objects[slot];
-    if (slot == rides_ || !interior_holds(state.shape->shape(), state.pose, volume_->apex())) continue;
+    if (slot == rides_ || !state.shape->holds(state.pose, volume_->apex())) continue;
     exclude(slot);
     if (mark(slot)) result_->seen.push_back(slot);
   }
@@ -184,7 +184,7 @@ void ViewTask::reveal(Slot slot) {
   found.pose = world_->read(slot);
   const PreparedShape& shape = *state.shape;
   shape.cover(world_->lattice, found.pose, scratch_, found.cover);
-  found.container = interior_holds(shape.shape(), found.pose, volume_->apex());
+  found.container = shape.holds(found.pose, volume_->apex());
   ++answer_->work.tbv_revealed;
   if (found.container) {
     excluded_.push_back(slot);
@@ -207,14 +207,14 @@ bool ViewTask::in_view(const ObjectState& object, const Pose& pose) const {
   if (volume_->all_round() && !std::isfinite(volume_->range())) return true;
   // The ball first: it is at hand, the shape is not.
   if (!volume_->may_touch_ball(pose.position, object.reach)) return false;
-  return object.round || volume_->may_touch(object.shape->shape(), pose);
+  return object.round || object.shape->may_touch(*volume_, pose);
 }
 
 void ViewTask::collect() {
   if (has_window_) {
-    for (std::size_t b = 0; b < grid_.brick_count(); ++b) {
-      if (grid_.visible[b] != 0) collect_brick(b);
-    }
+    grid_.for_each_brick([&](std::size_t brick, std::size_t lattice_brick) {
+      if (grid_.visible[brick] != 0) collect_brick(lattice_brick, grid_.visible[brick]);
+    });
   }
   for (std::size_t i = 0; i < found_count_; ++i) collect_found(found_[i]);
   ids_.list(world_->objects, result_->seen, answer_->visible);
@@ -232,10 +232,8 @@ void ViewTask::collect_found(const Found& found) {
     result_->seen.push_back(found.slot);
 }
 
-void ViewTask::collect_brick(std::size_t brick) {
+void ViewTask::collect_brick(std::size_t lattice_brick, std::uint64_t visible) {
   const IdentifierMatrix& matrix = world_->matrix;
-  const std::uint64_t visible = grid_.visible[brick];
-  const std::size_t lattice_brick = grid_.lattice_brick(brick);
   world_->note_seen(world_->tbv.block_of(lattice_brick));
   for (std::uint32_t i = matrix.first_in_brick(lattice_brick); i != none;) {
     const auto& entry = matrix.entry(i);

@@ -45,7 +45,7 @@ class ViewTask final : public ViewAnswerer, private RevealSink {
   bool excluded(Slot slot) const;
   void collect();
   void collect_found(const Found& found);
-  void collect_brick(std::size_t brick);
+  void collect_brick(std::size_t lattice_brick, std::uint64_t visible);
   void consider(Slot slot, const Pose& pose);
   bool in_view(const ObjectState& object, const Pose& pose) const;
   bool mark(Slot slot) {
