@@ -56,6 +56,21 @@ void clip(const Corners& in, Corners& out, const Depth& depth) {
   }
 }
 
+/// Corners this close (pixels) are taken for one, since the line through them may point anywhere and would cut off much
+/// of the polygon; the margins grow by twice that
+/// (one may be merged with a corner that is then merged with the first).
+constexpr double same_corner = 0x1p-16;
+
+bool same(const Polygon& polygon, int k, double x, double y) {
+  return std::fabs(polygon.x[k] - x) <= same_corner && std::fabs(polygon.y[k] - y) <= same_corner;
+}
+
+void add(Polygon& polygon, double x, double y) {
+  if (polygon.count > 0 && same(polygon, polygon.count - 1, x, y)) return;
+  polygon.x[polygon.count] = x;
+  polygon.y[polygon.count++] = y;
+}
+
 double form(const double* f, const Vec3& d) { return (f[0] * d.x + f[1] * d.y) + f[2] * d.z; }
 
 }  // namespace
@@ -83,15 +98,16 @@ Clipped clip_cone(const Window& window, const Vec3* rays, int count, Polygon& ou
   if (one.overflow) return Clipped::unsure;
   if (one.count == 0) return Clipped::empty;
   double stretch = 1.0;
+  out.count = 0;
   for (int k = 0; k < one.count; ++k) {
     const Corner& c = one.at[k];
     if (!(c.size <= utmost * c.w)) return Clipped::unsure;
     stretch = std::max(stretch, c.size / (steepest * c.w));
-    out.x[k] = snapped(middle_x + c.x / c.w);
-    out.y[k] = snapped(middle_y + c.y / c.w);
+    add(out, snapped(middle_x + c.x / c.w), snapped(middle_y + c.y / c.w));
   }
-  out.count = one.count;
-  out.margin_x = stretch * window.margin_x, out.margin_y = stretch * window.margin_y;
+  while (out.count > 1 && same(out, out.count - 1, out.x[0], out.y[0])) --out.count;
+  const double merged = out.count < one.count ? 2.0 * same_corner : 0.0;
+  out.margin_x = stretch * window.margin_x + merged, out.margin_y = stretch * window.margin_y + merged;
   pad(out);
   return Clipped::polygon;
 }
