@@ -2,15 +2,15 @@
 // component of the plane without the outline, so the even-odd rule answers alike for all its points: one point decides.
 // A segment and a convex polygon have disjoint interiors if and only if the line of one of the polygon's edges or the
 // segment's own line separates them (separating axes; their Minkowski difference has no other edges). Both
-// questions are signs of orientation(), which are exact.
+// questions are signs of side_of_line(), which are exact.
 #include "gridcull/grid/convex_cut.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
 
-#include "gridcull/core/predicates.h"
 #include "gridcull/core/shape.h"
+#include "gridcull/grid/exact_side.h"
 
 namespace gridcull {
 
@@ -42,7 +42,7 @@ ConvexPart cut_left(const ConvexPart& part, const Vec2& a, const Vec2& b) {
   for (std::size_t i = 0, n = part.size(); i < n; ++i) {
     const Vec2 p = part[i], q = part[(i + 1) % n];
     const double at_p = cross2(b - a, p - a), at_q = cross2(b - a, q - a);
-    const int side_p = orientation(a, b, p), side_q = orientation(a, b, q);
+    const int side_p = side_of_line(a, b, p), side_q = side_of_line(a, b, q);
     if (side_p >= 0) out.push_back(p);
     if (side_p * side_q < 0 && at_p != at_q) {
       const double t = std::clamp(at_p / (at_p - at_q), 0.0, 1.0);
@@ -58,7 +58,7 @@ ConvexPart strictly_convex(const ConvexPart& part) {
     again = false;
     for (std::size_t i = 0; i < out.size() && out.size() >= 3; ++i) {
       const Vec2 before = out[(i + out.size() - 1) % out.size()], after = out[(i + 1) % out.size()];
-      if (orientation(before, out[i], after) > 0) continue;
+      if (side_of_line(before, out[i], after) > 0) continue;
       out.erase(out.begin() + static_cast<std::ptrdiff_t>(i));
       again = true;
       break;
@@ -71,8 +71,8 @@ ConvexPart strictly_convex(const ConvexPart& part) {
 bool intrudes(const Wall& wall, const ConvexPart& part) {
   bool any_left = false, any_right = false;
   for (std::size_t i = 0, j = part.size() - 1; i < part.size(); j = i++) {
-    if (orientation(part[j], part[i], wall.a) <= 0 && orientation(part[j], part[i], wall.b) <= 0) return false;
-    const int side = orientation(wall.a, wall.b, part[i]);
+    if (side_of_line(part[j], part[i], wall.a) <= 0 && side_of_line(part[j], part[i], wall.b) <= 0) return false;
+    const int side = side_of_line(wall.a, wall.b, part[i]);
     any_left = any_left || side > 0;
     any_right = any_right || side < 0;
   }
@@ -83,7 +83,7 @@ bool is_inside(const std::vector<Wall>& walls, const Vec2& point) {
   bool inside = false;
   for (const Wall& w : walls) {
     if ((w.a.y > point.y) == (w.b.y > point.y)) continue;
-    const int side = orientation(w.a, w.b, point);
+    const int side = side_of_line(w.a, w.b, point);
     if ((w.b.y > w.a.y) == (side > 0)) inside = !inside;
   }
   return inside;
@@ -95,13 +95,13 @@ bool lies_inside(const ConvexPart& part, const std::vector<Wall>& walls) {
   for (std::size_t i = 0, n = part.size(); i < n; ++i) {
     // Locally convex and turning once in all: each corner to the left of each edge.
     for (std::size_t k = 0; k < n; ++k) {
-      if (k != i && k != (i + 1) % n && orientation(part[i], part[(i + 1) % n], part[k]) <= 0) return false;
+      if (k != i && k != (i + 1) % n && side_of_line(part[i], part[(i + 1) % n], part[k]) <= 0) return false;
     }
     middle += part[i];
   }
   middle /= static_cast<double>(part.size());
   for (std::size_t i = 0, j = part.size() - 1; i < part.size(); j = i++) {
-    if (orientation(part[j], part[i], middle) <= 0) return false;
+    if (side_of_line(part[j], part[i], middle) <= 0) return false;
   }
   return std::none_of(walls.begin(), walls.end(), [&](const Wall& w) { return intrudes(w, part); }) &&
          is_inside(walls, middle);

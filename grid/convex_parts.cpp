@@ -14,8 +14,8 @@
 #include <optional>
 
 #include "gridcull/core/bounds.h"
-#include "gridcull/core/predicates.h"
 #include "gridcull/grid/convex_cut.h"
+#include "gridcull/grid/exact_side.h"
 #include "gridcull/grid/outline_hull.h"
 
 namespace gridcull {
@@ -34,13 +34,13 @@ struct Line {
 };
 
 bool all_left(const ConvexPart& seed, const Line& line) {
-  return std::all_of(seed.begin(), seed.end(), [&](const Vec2& p) { return orientation(line.a, line.b, p) >= 0; });
+  return std::all_of(seed.begin(), seed.end(), [&](const Vec2& p) { return side_of_line(line.a, line.b, p) >= 0; });
 }
 
 /// The line through a and b, either way round, if it keeps the seed on its left and the wall on its right.
 void offer(const Vec2& a, const Vec2& b, const Wall& wall, const ConvexPart& seed, std::vector<Line>& out) {
   for (const Line& l : {Line{a, b}, Line{b, a}}) {
-    if (a != b && orientation(l.a, l.b, wall.a) <= 0 && orientation(l.a, l.b, wall.b) <= 0 && all_left(seed, l)) {
+    if (a != b && side_of_line(l.a, l.b, wall.a) <= 0 && side_of_line(l.a, l.b, wall.b) <= 0 && all_left(seed, l)) {
       out.push_back(l);
     }
   }
@@ -86,7 +86,7 @@ ConvexPart grow(const ConvexPart& seed, std::vector<Wall> walls, ConvexPart part
     work += intruders.size() * part.size();
     const Line cut = best_cut(intruders, seed, part);
     std::erase_if(walls, [&](const Wall& w) {
-      return orientation(cut.a, cut.b, w.a) <= 0 && orientation(cut.a, cut.b, w.b) <= 0;
+      return side_of_line(cut.a, cut.b, w.a) <= 0 && side_of_line(cut.a, cut.b, w.b) <= 0;
     });
   }
   return {};
@@ -120,7 +120,7 @@ std::optional<ConvexPart> checked(const ConvexPart& part, const std::vector<Wall
 
 bool strictly_holds(const ConvexPart& part, const Vec2& p) {
   for (std::size_t i = 0, j = part.size() - 1; i < part.size(); j = i++) {
-    if (orientation(part[j], part[i], p) <= 0) return false;
+    if (side_of_line(part[j], part[i], p) <= 0) return false;
   }
   return !part.empty();
 }

@@ -9,7 +9,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/core/hull.h"
-#include "gridcull/core/predicates.h"
+#include "gridcull/grid/exact_side.h"
 
 namespace gridcull {
 namespace {
@@ -119,7 +119,7 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 bool in_one_plane(const std::vector<Vec3>& points, const std::array<std::uint32_t, 3>& a,
                   const std::array<std::uint32_t, 3>& b) {
   return std::all_of(b.begin(), b.end(), [&](std::uint32_t i) {
-    return orientation(points[a[0]], points[a[1]], points[a[2]], points[i]) == 0;
+    return side_of_plane(points[a[0]], points[a[1]], points[a[2]], points[i]) == 0;
   });
 }
 

@@ -5,13 +5,13 @@
 // line (a supporting line, so nothing else of A or B does) and, along it, A's does not end before B's begins. Then they
 // also have a point in common. At least one edge of H leads from A to B, or one holds the other.
 //
-// All signs are exact: the plane by orientation() in space, the rest in the projection along an axis that the plane
+// All signs are exact: the plane by side_of_plane(), the rest in the projection along an axis that the plane
 // is not parallel to, which keeps lines, order and convexity.
 #include "gridcull/grid/convex_union.h"
 
 #include <algorithm>
 
-#include "gridcull/core/predicates.h"
+#include "gridcull/grid/exact_side.h"
 
 namespace gridcull {
 namespace {
@@ -32,7 +32,7 @@ Axes axes_of(const FlatPolygon& p) {
   const Vec3 n = glm::abs(glm::cross(p[1] - p[0], p[2] - p[0]));
   Axes axes = n.x >= n.y && n.x >= n.z ? Axes{1, 2} : n.y >= n.z ? Axes{2, 0} : Axes{0, 1};
   const auto on = [&](const Vec3& q) { return Vec2(q[axes.u], q[axes.v]); };
-  return orientation(on(p[0]), on(p[1]), on(p[2])) == 0 ? Axes{} : axes;
+  return side_of_line(on(p[0]), on(p[1]), on(p[2])) == 0 ? Axes{} : axes;
 }
 
 bool before(const Vec2& p, const Vec2& q) { return p.x < q.x || (p.x == q.x && p.y < q.y); }
@@ -59,7 +59,7 @@ std::vector<Corner> hull_of(std::vector<Corner> points) {
   for (int side = 0; side < 2; ++side) {
     const std::size_t base = hull.size();
     for (const Corner& p : points) {
-      while (hull.size() >= base + 2 && orientation(hull[hull.size() - 2].at, hull.back().at, p.at) <= 0)
+      while (hull.size() >= base + 2 && side_of_line(hull[hull.size() - 2].at, hull.back().at, p.at) <= 0)
         hull.pop_back();
       hull.push_back(p);
     }
@@ -79,7 +79,7 @@ Reach reach_of(const std::vector<Corner>& points, bool of_a, const Vec2& from, c
   Reach reach;
   const bool forward = before(from, to);
   for (const Corner& c : points) {
-    if (!(of_a ? c.in_a : c.in_b) || orientation(from, to, c.at) != 0) continue;
+    if (!(of_a ? c.in_a : c.in_b) || side_of_line(from, to, c.at) != 0) continue;
     if (!reach.any) {
       reach = {c.at, c.at, true};
     } else if (before(c.at, reach.first) == forward) {
@@ -100,7 +100,7 @@ bool is_covered(const std::vector<Corner>& points, const Corner& p, const Corner
 }
 
 bool in_plane_of(const FlatPolygon& a, const FlatPolygon& b) {
-  return std::all_of(b.begin(), b.end(), [&](const Vec3& p) { return orientation(a[0], a[1], a[2], p) == 0; });
+  return std::all_of(b.begin(), b.end(), [&](const Vec3& p) { return side_of_plane(a[0], a[1], a[2], p) == 0; });
 }
 
 }  // namespace

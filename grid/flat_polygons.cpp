@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "gridcull/core/predicates.h"
+#include "gridcull/grid/exact_side.h"
 
 namespace gridcull {
 namespace {
@@ -59,7 +59,7 @@ class Joiner {
   }
 
   int turn(const Projection& view, std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    return orientation(view.of(points_[a]), view.of(points_[b]), view.of(points_[c]));
+    return side_of_line(view.of(points_[a]), view.of(points_[b]), view.of(points_[c]));
   }
 
   bool has_area(const Corners& c) const { return turn(projection_of(c), c[0], c[1], c[2]) != 0; }
@@ -91,7 +91,7 @@ class Joiner {
     if (!open_at(a, edge) || !open_at(b, edge)) return false;
     const Projection view = projection_of(a);
     for (const std::uint32_t i : b) {
-      if (orientation(points_[a[0]], points_[a[1]], points_[a[2]], points_[i]) != 0) return false;
+      if (side_of_plane(points_[a[0]], points_[a[1]], points_[a[2]], points_[i]) != 0) return false;
     }
     // a runs edge end -> ... -> edge start, b the other way round: a's start is b's end.
     if (a.front() == b.front()) std::reverse(b.begin(), b.end());

@@ -14,9 +14,9 @@
 
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/hull.h"
-#include "gridcull/core/predicates.h"
 #include "gridcull/grid/convex_cut.h"
 #include "gridcull/grid/convex_union.h"
+#include "gridcull/grid/exact_side.h"
 #include "gridcull/grid/outline_hull.h"
 
 namespace gridcull {
@@ -36,7 +36,7 @@ bool shares_its_line(const Wall& wall, const std::vector<Wall>& walls) {
   const auto place = [&](const Vec2& p) { return glm::dot(p - wall.a, along); };
   return std::any_of(walls.begin(), walls.end(), [&](const Wall& w) {
     if (w.a == wall.a && w.b == wall.b) return false;
-    if (orientation(wall.a, wall.b, w.a) != 0 || orientation(wall.a, wall.b, w.b) != 0) return false;
+    if (side_of_line(wall.a, wall.b, w.a) != 0 || side_of_line(wall.a, wall.b, w.b) != 0) return false;
     // Rounded, so only what is clearly beside or merely joins at a corner is let through.
     if (w.b == wall.a && place(w.a) < 0.0) return false;
     if (w.a == wall.b && place(w.b) > place(wall.b)) return false;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "gridcull/core/predicates.h"
 #include "gridcull/core/vec.h"
+#include "gridcull/grid/exact_side.h"
 
 namespace gridcull {
 
@@ -19,7 +19,7 @@ inline std::vector<Vec2> hull_of_outline(std::vector<Vec2> points) {
   for (int side = 0; side < 2; ++side) {
     const std::size_t base = hull.size();
     for (const Vec2& p : points) {
-      while (hull.size() >= base + 2 && orientation(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      while (hull.size() >= base + 2 && side_of_line(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();  // the other side's first
