@@ -5,9 +5,10 @@
 //
 // Else the determinant is written out in the coordinates themselves, 6 products of two or 24 of three, each an exact
 // sum of 2 or 4 doubles (std::fma gives the rounding error of a product), and the doubles are distilled: passes of
-// exact additions of neighbours, which leave the sum as it is, until the last outweighs all before it (W. Kahan; T.
-// Ogita, S. M. Rump and S. Oishi, "Accurate sum and dot product", 2005, VecSum). Of n numbers n - 1 passes make numbers
-// that do not overlap, so it ends. fma is written out where it is meant: the build contracts nothing.
+// exact additions of neighbours, which leave the sum as it is, until the last outweighs all before it (W. Kahan's
+// distillation; T. Ogita, S. M. Rump and S. Oishi, "Accurate sum and dot product", 2005, VecSum). A few passes do; as
+// many as there are numbers leave none that overlap, so it ends. fma is written out where it is meant: the build
+// contracts nothing.
 #include "gridcull/grid/exact_side.h"
 
 #include <array>
