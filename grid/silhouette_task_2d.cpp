@@ -23,8 +23,7 @@ void SilhouetteTask2D::run(GridWorld& world, const View& view, Answer& answer, V
   answer.work = {};
   rides_ = view.rides == no_id ? none : world.objects.find(view.rides);
   silhouettes_.begin(volume);
-  for (const Slot slot : world.outside) meet(slot);
-  walk_.run(world.silhouettes->index, silhouettes_, answer.work, [this](Slot slot) { meet(slot); });
+  walk_.run(world.silhouettes->index, world.outside, silhouettes_, answer.work, [this](Slot slot) { meet(slot); });
   const auto walked = std::chrono::steady_clock::now();
   answer.work.occluders = silhouettes_.candidates();
   answer.work.rasters = silhouettes_.sight().buffer().size();

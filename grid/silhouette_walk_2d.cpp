@@ -19,7 +19,7 @@ LooseIndex::NodeId child_of(const LooseIndex::NodeId& id, int child) {
 
 // Boxes of lower nodes are worked out from their parents', a rounding a level. Each is far below the slack that
 // loose_box() adds, and that is doubled here.
-void SilhouetteWalk2D::begin(const LooseIndex& index, const Sight2D& sight) {
+void SilhouetteWalk2D::begin(const LooseIndex& index, std::span<const Slot> outside, const Sight2D& sight) {
   index_ = &index;
   sight_ = &sight;
   spots_.clear();
@@ -39,6 +39,7 @@ void SilhouetteWalk2D::begin(const LooseIndex& index, const Sight2D& sight) {
   limit_ = sight.range() * (1.0 + 1e-9) + sight.blur();
   queue_.begin(std::min(far, sight.range()));
   for (std::size_t i = 0, tops = spots_.size(); i < tops; ++i) take(Spot(spots_[i]), below[i]);
+  for (const Slot slot : outside) push(slot);
 }
 
 void SilhouetteWalk2D::take(const Spot& spot, std::uint32_t below) {
@@ -49,7 +50,7 @@ void SilhouetteWalk2D::take(const Spot& spot, std::uint32_t below) {
   if (below <= crowd) {
     gather(spot.id);
   } else {
-    queue_.push(std::sqrt(square), node_bit + static_cast<std::uint32_t>(spots_.size()));
+    queue_.push_node(std::sqrt(square), static_cast<std::uint32_t>(spots_.size()));
     spots_.push_back(spot);
   }
 }
@@ -93,7 +94,7 @@ void SilhouetteWalk2D::push(Slot slot) {
   const Vec2 d = Vec2(ball.centre) - sight_->eye();
   // As rounded: what is a little beyond the range is sorted out by whoever tests the object.
   const double square = glm::dot(d, d), most = limit_ + ball.radius;
-  if (square <= most * most) queue_.push(std::sqrt(square) - ball.radius, slot);
+  if (square <= most * most) queue_.push_object(std::sqrt(square) - ball.radius, slot);
 }
 
 }  // namespace gridcull

@@ -7,6 +7,7 @@
 // Cost: a test of a node for each `crowd` entries that are not skipped, some nanoseconds an entry for the queue.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "gridcull/core/culler.h"
@@ -18,18 +19,17 @@ namespace gridcull {
 
 class SilhouetteWalk2D {
  public:
-  /// Calls meet(slot) about front to back; it may enter objects into `silhouettes`.
+  /// Calls meet(slot) about front to back for what hangs in the index and for `outside`, balls that it only remembers;
+  /// meet may enter objects into `silhouettes`. The order depends on distances and slots only.
   template <class Meet>
-  void run(const LooseIndex& index, Silhouettes2D& silhouettes, WorkCounts& work, Meet&& meet) {
-    begin(index, silhouettes.sight());
-    for (std::uint32_t what = 0; queue_.pop(what);) {
-      if (what < node_bit) {
-        ++work.object_tests;
-        meet(Slot{what});
-      } else {
-        open(what - node_bit, silhouettes, work);
-      }
-    }
+  void run(const LooseIndex& index, std::span<const Slot> outside, Silhouettes2D& silhouettes, WorkCounts& work,
+           Meet&& meet) {
+    begin(index, outside, silhouettes.sight());
+    queue_.take_all([&](std::uint32_t spot) { open(spot, silhouettes, work); },
+                    [&](Slot slot) {
+                      ++work.object_tests;
+                      meet(slot);
+                    });
   }
 
   std::uint64_t bytes() const { return queue_.bytes() + spots_.capacity() * sizeof(Spot); }
@@ -43,10 +43,8 @@ class SilhouetteWalk2D {
   /// A test of a node costs about as much as some objects that turn out to be hidden; below this its entries are
   /// taken at once.
   static constexpr std::uint32_t crowd = 16;
-  /// In the queue: slots below, places in spots_ from here on.
-  static constexpr std::uint32_t node_bit = std::uint32_t{1} << 31;
 
-  void begin(const LooseIndex& index, const Sight2D& sight);
+  void begin(const LooseIndex& index, std::span<const Slot> outside, const Sight2D& sight);
   void open(std::uint32_t spot, const Silhouettes2D& silhouettes, WorkCounts& work);
   void take(const Spot& spot, std::uint32_t below);
   void gather(const LooseIndex::NodeId& id);

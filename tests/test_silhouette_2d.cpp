@@ -201,7 +201,7 @@ TEST_CASE("the walk meets front objects first, skips what is hidden, and finds t
     silhouettes.begin(volume);
     SilhouetteWalk2D walk;
     WorkCounts work;
-    walk.run(index, silhouettes, work,
+    walk.run(index, {}, silhouettes, work,
              [&](Slot slot) { silhouettes.enter(slot, store.at(slot), world[slot].occluder); });
     met += work.object_tests;
     all += world.size();
