@@ -48,7 +48,7 @@ bool Silhouettes2D::enter(Slot slot, const Placed2D& object, bool occluder) {
 bool Silhouettes2D::enter_outline(Candidate& c, bool occluder) {
   const Outline2D& outline = *c.object.outline;
   const bool clear = face_all(c.object);
-  c.seen = !clear;
+  c.seen = !clear && touches_cone();
   const Facing back = clear ? back_of(outline) : Facing::radial;
   if (occluder && outline.solid(magnitude(c.object))) {
     const auto owner = static_cast<std::uint32_t>(candidates_.size());
@@ -156,6 +156,19 @@ bool Silhouettes2D::face_all(const Placed2D& object) {
     clear = clear && facing_[i] != Facing::touches;
   }
   return clear;
+}
+
+/// The object in hand against the sides of the field of view: it is met at no distance, so all directions count.
+bool Silhouettes2D::touches_cone() const {
+  const auto touches = [&](const HalfSpace& side) {
+    return std::any_of(points_.begin(), points_.end(), [&](const Vec2& p) {
+      const double slack = 1e-15 * (std::fabs(p.x) + std::fabs(p.y)) + 1e-3 * sight_.blur();
+      return glm::dot(Vec2(side.normal), p) >= -slack;
+    });
+  };
+  if (volume_->all_round()) return true;
+  return volume_->convex() ? std::all_of(volume_->begin(), volume_->end(), touches)
+                           : std::any_of(volume_->begin(), volume_->end(), touches);
 }
 
 /// The open interior, judged as interior_holds() does (core/view_volume.h), on the points at hand.

@@ -6,7 +6,8 @@
 // of the buffer, or if a test against the finished buffer finds part of it open: a wall that coincides with the
 // owner's, an object that never hides, one that was entered before its occluder. What owns a piece is not tested
 // again unless it sticks out of the range: a piece is what the viewer meets first in those directions, but for ties.
-// An object that holds the viewpoint, or has it on its border within rounding, is listed; the first kind does not hide.
+// An object that holds the viewpoint is listed and does not hide. One that has it on its border within rounding is
+// listed if it reaches into the field of view.
 #pragma once
 
 #include <cstdint>
@@ -67,6 +68,7 @@ class Silhouettes2D {
   /// Fills points_ and facing_. False if the viewer stands on an edge.
   bool face_all(const Placed2D& object);
   bool holds_viewer(const Placed2D& object) const;
+  bool touches_cone() const;
   /// Which edges need no look when the viewer is outside and not on the outline.
   static Facing back_of(const Outline2D& outline) {
     if (!outline.clean() || !outline.closed()) return Facing::radial;
