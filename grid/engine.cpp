@@ -35,7 +35,7 @@ const MethodInfo& grid_engine_info(Hiding hiding) {
                                          "regular grid, occluders fused in image space (DESIGN section 5; Batagelo and "
                                          "Wu 2002, section 7)",
                                          Guarantee::conservative,
-                                         false,
+                                         true,
                                          true,
                                          true};
   return hiding == Hiding::voxel ? voxel : silhouette;

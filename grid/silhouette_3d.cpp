@@ -29,6 +29,9 @@ namespace {
 
 double magnitude(const Vec3& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
+/// How much farther a solid's far end must be than its near end for slices to pay.
+constexpr double worth_slicing = 1.5;
+
 /// Entries that are worth a test of their node.
 constexpr std::uint32_t few = 2;
 
@@ -221,22 +224,32 @@ SightFrame Silhouette3D::sight(Slot slot) const {
 }
 
 bool Silhouette3D::open_whole(Slot slot, const LooseBall& ball, Sliced& object) {
-  const Vec3 centre = ball.centre - volume_->apex();
   const SilhouetteWorld::Solid* solid = shapes_->solid(slot);
-  // The ball of a solid is only around it: a first, cheap test.
-  const double radius = solid == nullptr ? ball.radius : ball.radius + rounding * (apex_size_ + magnitude(ball.centre));
-  if (!mask_.open_ball(centre, radius)) return false;
-  if (solid == nullptr) {
-    const std::array<double, 2> entrance = ball_entrance(glm::length(centre), ball.radius);
-    object.nearest = entrance[0];
-    object.farthest = entrance[1];
-    return true;
-  }
+  if (solid != nullptr) return open_solid(slot, *solid, object);
+  const Vec3 centre = ball.centre - volume_->apex();
+  if (!mask_.open_ball(centre, ball.radius)) return false;
+  const std::array<double, 2> entrance = ball_entrance(glm::length(centre), ball.radius);
+  object.nearest = entrance[0];
+  object.farthest = entrance[1];
+  return true;
+}
+
+// The box around a solid, with the world's axes, is a first, cheap test.
+bool Silhouette3D::open_solid(Slot slot, const SilhouetteWorld::Solid& solid, Sliced& object) {
   const SightFrame frame = sight(slot);
-  if (!outer_outline({solid->outer, frame}, outline_)) return true;
-  object.nearest = outline_.nearest;
-  object.farthest = outline_.farthest;
-  return mask_.open_convex(outline_.rays.data(), outline_.count);
+  const Rotation& r = frame.rotation;
+  const Vec3 centre = frame.origin + r * solid.box_centre;
+  const double blur = rounding * (apex_size_ + magnitude(pose_of(slot).position) + magnitude(solid.box_half));
+  const Vec3 half = glm::abs(r.x) * solid.box_half.x + glm::abs(r.y) * solid.box_half.y +
+                    glm::abs(r.z) * solid.box_half.z + Vec3(blur);
+  if (!mask_.open_box(centre - half, centre + half)) return false;
+  if (!outer_outline({solid.outer, frame}, outline_)) return true;
+  if (!mask_.open_convex(outline_.rays.data(), outline_.count)) return false;
+  if (outline_.farthest > worth_slicing * outline_.nearest) {
+    object.nearest = outline_.nearest;
+    object.farthest = outline_.farthest;
+  }
+  return true;
 }
 
 // Slices reach from boundary to boundary; the nearest is looked at at once, each next one when its depth has come and
@@ -309,7 +322,11 @@ void Silhouette3D::hide_behind_ball(const LooseBall& ball) {
 void Silhouette3D::hide_behind_pieces(Slot slot) {
   const SightFrame frame = sight(slot);
   for (const ConvexPiece& piece : shapes_->solid(slot)->pieces.pieces) {
-    if (silhouette({piece, frame}, outline_)) push_loop(outline_, outline_.farthest);
+    const int count = sections({piece, frame}, sections_);
+    for (int i = 0; i < count; ++i) {
+      const Section& section = sections_[static_cast<std::size_t>(i)];
+      push_loop(section.outline, section.key);
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include "gridcull/grid/front_queue.h"
 #include "gridcull/grid/grid_world.h"
 #include "gridcull/grid/outer_outline.h"
+#include "gridcull/grid/piece_sections.h"
 #include "gridcull/grid/view_answerer.h"
 
 namespace gridcull {
@@ -56,6 +57,7 @@ class Silhouette3D final : public ViewAnswerer {
   void look(Slot slot);
   bool holds_viewpoint(Slot slot) const;
   bool open_whole(Slot slot, const LooseBall& ball, Sliced& object);
+  bool open_solid(Slot slot, const SilhouetteWorld::Solid& solid, Sliced& object);
   /// Second test: slice after slice, from the nearest on.
   void look_at_slices(Sliced object);
   bool open_slice(const Sliced& object);
@@ -69,6 +71,7 @@ class Silhouette3D final : public ViewAnswerer {
   /// A lower bound of the distance from the viewpoint to the ball's points.
   double nearest_of(const LooseBall& ball) const;
   SightFrame sight(Slot slot) const;
+  const Pose& pose_of(Slot slot) const { return world_->objects[slot].pose; }
 
   int resolution_;
   CoverageMask mask_;
@@ -87,6 +90,7 @@ class Silhouette3D final : public ViewAnswerer {
   std::vector<Vec3> rays_;
   std::vector<Sliced> sliced_;
   Outline outline_;
+  std::array<Section, max_sections> sections_;
   AnswerIds ids_;
 };
 

@@ -19,6 +19,14 @@ LooseBall ball_around(const Shape& shape) {
   return ball;
 }
 
+std::unique_ptr<SilhouetteWorld::Solid> make_solid(const Shape& shape) {
+  Bounds box;
+  for (const Vec3& p : world_vertices(shape, Pose{})) box.add(p);
+  const Vec3 half = 0.5 * box.size() + Vec3(1e-8 * reach_of(shape));
+  return std::make_unique<SilhouetteWorld::Solid>(
+      SilhouetteWorld::Solid{make_occluder_pieces(shape), make_outer_hull(shape), box.centre(), half});
+}
+
 }  // namespace
 
 void SilhouetteWorld::reserve(std::size_t slots) {
@@ -35,7 +43,7 @@ void SilhouetteWorld::add(Slot slot, const Shape& shape) {
   body.solid.reset();
   if (index.dimension() == 2) outlines.add(slot, shape);
   if (dimension_of(shape) == 3 && !std::holds_alternative<Sphere>(shape)) {
-    body.solid = std::make_unique<Solid>(Solid{make_occluder_pieces(shape), make_outer_hull(shape)});
+    body.solid = make_solid(shape);
   }
   body.centred = body.ball.radius > 0.75 * reach;
   if (body.centred)

@@ -47,6 +47,7 @@ class SilhouetteWorld {
   struct Solid {
     OccluderPieces pieces;
     ConvexPiece outer;
+    Vec3 box_centre{0.0}, box_half{0.0};  ///< box around the shape, local axes; grown by 1e-8 for its roundings
   };
   const Solid* solid(Slot slot) const { return bodies_[slot].solid.get(); }
 

@@ -70,6 +70,6 @@ std::unique_ptr<Culler> make_method(std::string_view name, const MethodOptions& 
   throw Error(ErrorCode::usage, "--method: expected one of " + known + ", found " + std::string(name));
 }
 
-std::string_view default_method() { return "voxel"; }
+std::string_view default_method() { return "silhouette"; }
 
 }  // namespace gridcull
