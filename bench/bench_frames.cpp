@@ -11,6 +11,7 @@ namespace {
 
 GridOptions grid_of(const Scene& scene, TbvMode tbv) {
   GridOptions options;
+  options.hiding = Hiding::voxel;
   options.dimension = scene.dimension;
   options.bounds = *scene.bounds;
   options.cell = *scene.cell;

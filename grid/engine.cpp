@@ -122,7 +122,11 @@ MemoryUse GridEngine::memory() const {
     const ObjectState& state = s.world.objects[slot];
     if (state.shape) use.objects += state.shape->bytes();
   }
-  if (s.world.silhouettes) use.entries += s.world.silhouettes->bytes();
+  if (const SilhouetteWorld* silhouettes = s.world.silhouettes.get()) {
+    use.matrices += silhouettes->index.node_bytes();
+    use.entries += silhouettes->index.entry_bytes();
+    use.objects += silhouettes->shape_bytes();
+  }
   for (const auto& task : s.tasks) use.viewers += task->bytes();
   return use;
 }

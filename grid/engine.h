@@ -30,7 +30,7 @@ struct GridOptions {
   TbvMode tbv = TbvMode::solid;                       ///< `silhouette` takes hollow as solid
   int threads = 1;                                    ///< 1 .. 256; viewers run in parallel
   std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes for the matrices
-  Hiding hiding = Hiding::voxel;
+  Hiding hiding = Hiding::silhouette;
   int resolution = 0;  ///< `silhouette` in 3D: pixels along the mask's longer side, 8 .. 8192; 0: chosen per viewer
 };
 

@@ -63,9 +63,10 @@ void GridEngine::State::add(const Object& object) {
   if (world.silhouettes) {
     world.silhouettes->reserve(slots);
     world.silhouettes->add(slot, object.shape);
+  } else {
+    world.tbv.reserve(slots);
+    world.hollow.reserve(slots);
   }
-  world.tbv.reserve(slots);
-  world.hollow.reserve(slots);
   expiries.reserve(slots);
   seen.resize(slots, 0);
   seen[slot] = 0;

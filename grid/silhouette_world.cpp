@@ -70,8 +70,8 @@ bool SilhouetteWorld::enter(Slot slot, const LooseBall& ball) {
 
 bool SilhouetteWorld::near_seen(const LooseBall&, std::uint64_t) const { return false; }
 
-std::uint64_t SilhouetteWorld::bytes() const {
-  std::uint64_t bytes = index.node_bytes() + index.entry_bytes() + outlines.bytes() + bodies_.capacity() * sizeof(Body);
+std::uint64_t SilhouetteWorld::shape_bytes() const {
+  std::uint64_t bytes = outlines.bytes() + bodies_.capacity() * sizeof(Body);
   for (const Body& body : bodies_) {
     if (body.solid) bytes += sizeof(Solid) + body.solid->pieces.bytes() + body.solid->outer.bytes();
   }

@@ -51,7 +51,8 @@ class SilhouetteWorld {
   };
   const Solid* solid(Slot slot) const { return bodies_[slot].solid.get(); }
 
-  std::uint64_t bytes() const;
+  /// What shapes take; the index says its own.
+  std::uint64_t shape_bytes() const;
 
   /// 2D: the object stands at `pose` from now on; its outline's points are placed there.
   void place(Slot slot, const Pose& pose) {

@@ -18,17 +18,14 @@ TbvMode tbv_mode(const std::string& name) {
   throw Error(ErrorCode::usage, "--tbv: expected off, solid or hollow, found " + name);
 }
 
-std::unique_ptr<Culler> make_voxel(const MethodOptions& o) {
+std::unique_ptr<Culler> make_engine(const MethodOptions& o, Hiding hiding) {
   return std::make_unique<GridEngine>(
-      GridOptions{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads, o.max_memory});
+      GridOptions{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads, o.max_memory, hiding, o.resolution});
 }
 
-std::unique_ptr<Culler> make_silhouette(const MethodOptions& o) {
-  GridOptions options{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads, o.max_memory};
-  options.hiding = Hiding::silhouette;
-  options.resolution = o.resolution;
-  return std::make_unique<GridEngine>(options);
-}
+std::unique_ptr<Culler> make_voxel(const MethodOptions& o) { return make_engine(o, Hiding::voxel); }
+
+std::unique_ptr<Culler> make_silhouette(const MethodOptions& o) { return make_engine(o, Hiding::silhouette); }
 
 std::unique_ptr<Culler> make_frustum(const MethodOptions& o) { return make_frustum_culler(o.dimension); }
 

@@ -73,7 +73,8 @@ std::string cell_less(const PreparedWorld& world) {
 std::string memory_text(const GridEngine& engine, std::size_t objects) {
   const MemoryUse use = engine.memory();
   const auto cells = static_cast<double>(engine.lattice().cell_count());
-  std::string text = row("memory", bytes_text(static_cast<double>(use.total())) + " after frame 0");
+  std::string text = row("memory", bytes_text(static_cast<double>(use.total())) + " after frame 0, method " +
+                                       std::string(engine.info().name));
   text += row("  matrices", bytes_text(static_cast<double>(use.matrices)) + ", " +
                                 number_text(static_cast<double>(use.matrices) / cells, 3) + " bytes a cell");
   text += row("  viewers", bytes_text(static_cast<double>(use.viewers)));
@@ -88,8 +89,9 @@ std::string memory_text(const GridEngine& engine, std::size_t objects) {
 }
 
 /// The engine's memory once the first frame is answered.
-std::string first_frame(const WorldOptions& options, const PreparedWorld& world) {
+std::string first_frame(const WorldOptions& options, const PreparedWorld& world, Hiding hiding) {
   GridOptions grid;
+  grid.hiding = hiding;
   grid.dimension = world.scene.dimension;
   grid.bounds = world.choice.bounds;
   grid.cell = world.choice.cell;
@@ -113,7 +115,9 @@ int info(const WorldOptions& options) {
   text += row("cell", number_text(world.choice.cell) + " m: " + world.choice.cell_reason);
   text += row("grid", lattice_text(world.lattice) + ", " + std::to_string(world.lattice.cell_count()) + " in all");
   text += row("cell-less", cell_less(world));
-  text += first_frame(options, world);
+  // Standard input can be read once only.
+  if (options.frames != "-") text += first_frame(options, world, Hiding::voxel);
+  text += first_frame(options, world, Hiding::silhouette);
   std::fputs(text.c_str(), stdout);
   return 0;
 }

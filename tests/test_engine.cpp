@@ -28,6 +28,7 @@ bool refuses(ErrorCode code, F&& f) {
 
 GridOptions plane(double side = 32.0, double cell = 1.0) {
   GridOptions o;
+  o.hiding = Hiding::voxel;
   o.bounds = {{0, 0, 0}, {side, side, 0}};
   o.cell = cell;
   return o;
@@ -161,6 +162,7 @@ TEST_CASE("memory: under 8 bytes a cell and 200 an object on 5,000 spheres") {
   const auto generator = make_generator("spheres", options);
   const Scene& scene = generator->scene();
   GridOptions o;
+  o.hiding = Hiding::voxel;
   o.dimension = 3;
   o.bounds = scene.bounds.value();
   for (const double cell : {2.0, 1.0}) {
@@ -210,6 +212,7 @@ TEST_CASE("answers do not depend on the number of threads") {
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 4}) {
     GridOptions o;
+    o.hiding = Hiding::voxel;
     o.bounds = generator->scene().bounds.value();
     o.cell = 2.0;
     o.threads = threads;

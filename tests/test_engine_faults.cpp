@@ -32,6 +32,7 @@ constexpr std::array modes{TbvMode::off, TbvMode::solid, TbvMode::hollow};
 TEST_CASE("a source that throws costs its frame and nothing else") {
   for (const TbvMode mode : modes) {
     GridOptions options;
+    options.hiding = Hiding::voxel;
     options.bounds = {{0, 0, 0}, {128, 128, 0}};
     options.tbv = mode;
     GridEngine engine(options);
@@ -72,6 +73,7 @@ TEST_CASE("a source that throws costs its frame and nothing else") {
 TEST_CASE("a rider that walked into the outline around its own object sees it once it gets off") {
   for (const TbvMode mode : modes) {
     GridOptions options;
+    options.hiding = Hiding::voxel;
     options.bounds = {{0, 0, 0}, {100, 100, 0}};
     options.tbv = mode;
     GridEngine engine(options);
@@ -94,6 +96,7 @@ TEST_CASE("a rider that walked into the outline around its own object sees it on
 TEST_CASE("a new source is believed at once, and hidden objects are looked at again") {
   for (const TbvMode mode : modes) {
     GridOptions options;
+    options.hiding = Hiding::voxel;
     options.bounds = {{0, 0, 0}, {128, 128, 0}};
     options.tbv = mode;
     GridEngine engine(options);
@@ -115,6 +118,7 @@ TEST_CASE("a new source is believed at once, and hidden objects are looked at ag
 
 TEST_CASE("views and poses outside the contract are refused, not answered") {
   GridOptions options;
+  options.hiding = Hiding::voxel;
   options.dimension = 3;
   options.bounds = {{0, 0, 0}, {32, 32, 32}};
   GridEngine engine(options);

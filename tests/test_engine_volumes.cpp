@@ -18,6 +18,7 @@ const std::vector<View> west{make_view(1, {8.5, 64.5, 0})};
 
 GridOptions hall(TbvMode tbv) {
   GridOptions o;
+  o.hiding = Hiding::voxel;
   o.bounds = {{0, 0, 0}, {128, 128, 0}};
   o.tbv = tbv;
   return o;
