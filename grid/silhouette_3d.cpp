@@ -23,6 +23,7 @@
 #include <cmath>
 
 #include "gridcull/grid/ball_sections.h"
+#include "gridcull/grid/draw_volumes.h"
 
 namespace gridcull {
 namespace {
@@ -63,7 +64,7 @@ double farthest_of_box(const Vec3& low, const Vec3& high) {
 
 }  // namespace
 
-void Silhouette3D::run(GridWorld& world, const View& view, Answer& answer, ViewResult& result, DrawSink*) {
+void Silhouette3D::run(GridWorld& world, const View& view, Answer& answer, ViewResult& result, DrawSink* draw) {
   const auto start = std::chrono::steady_clock::now();
   const ViewVolume volume(view, world.lattice.dimension());
   world_ = &world;
@@ -77,11 +78,18 @@ void Silhouette3D::run(GridWorld& world, const View& view, Answer& answer, ViewR
   answer.viewer = view.viewer;
   answer.visible.clear();
   answer.work = {};
+  drawing_ = draw != nullptr;
+  walked_.clear();
   begin(view);
   walk();
   answer.work.rasters = mask_.rows();
   const auto walked = std::chrono::steady_clock::now();
   ids_.list(world.objects, result.seen, answer.visible);
+  if (draw != nullptr) {
+    draw_nodes(shapes_->index, walked_, *draw);
+    draw_volumes(
+        world, result, [&](Slot slot) { return shapes_->index.ball(slot); }, *draw);
+  }
   const auto end = std::chrono::steady_clock::now();
   result.traverse_us = std::chrono::duration<double, std::micro>(walked - start).count();
   result.collect_us = std::chrono::duration<double, std::micro>(end - walked).count();
@@ -152,10 +160,12 @@ void Silhouette3D::open_node(std::uint64_t what) {
     const Box box = box_of(id);
     if (!mask_.open_box(box.low, box.high)) {
       ++answer_->work.cells_hidden;
+      if (drawing_) walked_.hidden.push_back(id);
       return;
     }
   }
   ++answer_->work.cells_visited;
+  if (drawing_) walked_.opened.push_back(id);
   for (Slot slot = node.first; slot != none; slot = index.next(slot)) push_entry(slot);
   if (id.level > 0) push_children(id);
 }

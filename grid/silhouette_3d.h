@@ -11,6 +11,7 @@
 #include "gridcull/grid/grid_world.h"
 #include "gridcull/grid/outer_outline.h"
 #include "gridcull/grid/piece_sections.h"
+#include "gridcull/grid/silhouette_drawing.h"
 #include "gridcull/grid/view_answerer.h"
 
 namespace gridcull {
@@ -92,6 +93,8 @@ class Silhouette3D final : public ViewAnswerer {
   Outline outline_;
   std::array<Section, max_sections> sections_;
   AnswerIds ids_;
+  bool drawing_ = false;
+  WalkedNodes walked_;  // while drawing
 };
 
 }  // namespace gridcull

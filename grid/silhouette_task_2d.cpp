@@ -5,11 +5,14 @@
 // altogether.
 #include "gridcull/grid/silhouette_task_2d.h"
 
+#include <algorithm>
 #include <chrono>
+
+#include "gridcull/grid/draw_volumes.h"
 
 namespace gridcull {
 
-void SilhouetteTask2D::run(GridWorld& world, const View& view, Answer& answer, ViewResult& result, DrawSink*) {
+void SilhouetteTask2D::run(GridWorld& world, const View& view, Answer& answer, ViewResult& result, DrawSink* draw) {
   const auto start = std::chrono::steady_clock::now();
   const ViewVolume volume(view, 2);
   world_ = &world;
@@ -23,15 +26,30 @@ void SilhouetteTask2D::run(GridWorld& world, const View& view, Answer& answer, V
   answer.work = {};
   rides_ = view.rides == no_id ? none : world.objects.find(view.rides);
   silhouettes_.begin(volume);
+  walked_.clear();
+  walk_.note_nodes(draw != nullptr ? &walked_ : nullptr);
   walk_.run(world.silhouettes->index, world.outside, silhouettes_, answer.work, [this](Slot slot) { meet(slot); });
   const auto walked = std::chrono::steady_clock::now();
   answer.work.occluders = silhouettes_.candidates();
   answer.work.rasters = silhouettes_.sight().buffer().size();
   silhouettes_.finish(result.seen);
   ids_.list(world.objects, result.seen, answer.visible);
+  if (draw != nullptr) draw_all(*draw);
   const auto end = std::chrono::steady_clock::now();
   result.traverse_us = std::chrono::duration<double, std::micro>(walked - start).count();
   result.collect_us = std::chrono::duration<double, std::micro>(end - walked).count();
+}
+
+void SilhouetteTask2D::draw_all(DrawSink& sink) const {
+  const LooseIndex& index = world_->silhouettes->index;
+  const Sight2D& sight = silhouettes_.sight();
+  draw_nodes(index, walked_, sink);
+  // Without a range, as far as the farthest corner of the world.
+  const Bounds box = world_->lattice.box();
+  const Vec2 far = glm::max(glm::abs(Vec2(box.min) - sight.eye()), glm::abs(Vec2(box.max) - sight.eye()));
+  sink.region(seen_region(sight.buffer(), sight.eye(), std::min(sight.range(), glm::length(far))));
+  draw_volumes(
+      *world_, *result_, [&](Slot slot) { return index.ball(slot); }, sink);
 }
 
 void SilhouetteTask2D::meet(Slot slot) {

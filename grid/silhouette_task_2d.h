@@ -18,6 +18,7 @@ class SilhouetteTask2D final : public ViewAnswerer {
 
  private:
   void meet(Slot slot);
+  void draw_all(DrawSink& sink) const;
   /// Points of the revealed object with this number, which stay until the view is answered.
   std::vector<Vec2>& points_of(std::size_t revealed);
 
@@ -27,6 +28,7 @@ class SilhouetteTask2D final : public ViewAnswerer {
   Slot rides_ = none;
   Silhouettes2D silhouettes_;
   SilhouetteWalk2D walk_;
+  WalkedNodes walked_;  // while drawing
   std::vector<std::vector<Vec2>> points_;
   AnswerIds ids_;
 };

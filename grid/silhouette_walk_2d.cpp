@@ -48,6 +48,7 @@ void SilhouetteWalk2D::take(const Spot& spot, std::uint32_t below) {
   const double square = glm::dot(d, d);
   if (square > limit_ * limit_) return;
   if (below <= crowd) {
+    if (noted_ != nullptr && below > 0) noted_->opened.push_back(spot.id);
     gather(spot.id);
   } else {
     queue_.push_node(std::sqrt(square), static_cast<std::uint32_t>(spots_.size()));
@@ -60,9 +61,11 @@ void SilhouetteWalk2D::open(std::uint32_t at, const Silhouettes2D& silhouettes, 
   const Vec2 half(reach(spot.id.level));
   if (!silhouettes.shows_box(spot.middle - half, spot.middle + half)) {
     ++work.cells_hidden;
+    if (noted_ != nullptr) noted_->hidden.push_back(spot.id);
     return;
   }
   ++work.cells_visited;
+  if (noted_ != nullptr) noted_->opened.push_back(spot.id);
   const LooseIndex::Node& node = index_->node(spot.id);
   for (Slot slot = node.first; slot != none; slot = index_->next(slot)) push(slot);
   if (spot.id.level == 0) return;

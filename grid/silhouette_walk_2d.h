@@ -14,6 +14,7 @@
 #include "gridcull/grid/loose_index.h"
 #include "gridcull/grid/near_first.h"
 #include "gridcull/grid/silhouette_2d.h"
+#include "gridcull/grid/silhouette_drawing.h"
 
 namespace gridcull {
 
@@ -31,6 +32,9 @@ class SilhouetteWalk2D {
                       meet(slot);
                     });
   }
+
+  /// Keeps the nodes that the runs to come meet; nullptr: no longer.
+  void note_nodes(WalkedNodes* nodes) { noted_ = nodes; }
 
   std::uint64_t bytes() const { return queue_.bytes() + spots_.capacity() * sizeof(Spot); }
 
@@ -58,6 +62,7 @@ class SilhouetteWalk2D {
   double slack_ = 0.0;  // metres: of the loose boxes
   NearFirst queue_;
   std::vector<Spot> spots_;
+  WalkedNodes* noted_ = nullptr;
 };
 
 }  // namespace gridcull

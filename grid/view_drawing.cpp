@@ -1,4 +1,5 @@
 // Hands one view's matrices to a drawing sink (the paper's Figure 1).
+#include "gridcull/grid/draw_volumes.h"
 #include "gridcull/grid/line_of_sight.h"
 #include "gridcull/grid/view_task.h"
 
@@ -52,7 +53,7 @@ void ViewTask::draw_all(DrawSink& sink) const {
     });
   }
   draw_line_of_sight(sink);
-  draw_volumes(sink);
+  draw_volumes(world, *result_, [&](Slot slot) { return world.tbv.ball(slot); }, sink);
 }
 
 void ViewTask::draw_line_of_sight(DrawSink& sink) const {
@@ -64,18 +65,6 @@ void ViewTask::draw_line_of_sight(DrawSink& sink) const {
     if (!has_window_ || !grid_.holds(c)) break;
     const std::size_t brick = lattice.brick_of(c);
     draw_bits(lattice, brick, std::uint64_t{1} << lattice.bit_of(c), CellLayer::line_of_sight, sink);
-  }
-}
-
-void ViewTask::draw_volumes(DrawSink& sink) const {
-  const GridWorld& world = *world_;
-  for (Slot slot = 0; slot < world.objects.size(); ++slot) {
-    const ObjectState& state = world.objects[slot];
-    if (state.place != Place::hidden) continue;
-    const TbvMatrix::Ball& ball = world.tbv.ball(slot);
-    const bool revealed =
-        std::find(result_->revealed.begin(), result_->revealed.end(), slot) != result_->revealed.end();
-    sink.tbv(state.id, ball.centre, ball.radius, revealed);
   }
 }
 

@@ -55,7 +55,6 @@ class ViewTask final : public ViewAnswerer, private RevealSink {
   }
   void draw_all(DrawSink& sink) const;
   void draw_line_of_sight(DrawSink& sink) const;
-  void draw_volumes(DrawSink& sink) const;
 
   /// Beyond this many cells the integer arithmetic of the shadows would overflow: then nothing is hidden.
   static constexpr std::int64_t greatest_distance = std::int64_t{1} << 30;

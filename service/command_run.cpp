@@ -91,7 +91,8 @@ void add_run_command(CLI::App& app, Action& action) {
                      "write the answers (.jsonl, .jsonl.gz, or -); without it a short table is printed");
   command.add_option("--stats", options->stats, "write times and counts as JSON");
   command
-      .add_option("--picture", options->pictures, "draw the grid as one viewer met it in one frame; may be repeated")
+      .add_option("--picture", options->pictures,
+                  "draw what one viewer met in one frame, 2D with silhouette: exactly what it sees; may be repeated")
       ->type_name("FRAME:VIEWER:FILE.svg")
       ->allow_extra_args(false);
   command.footer(

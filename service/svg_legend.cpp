@@ -56,6 +56,8 @@ text{font:14px "Helvetica Neue",Helvetica,Arial,"DejaVu Sans",sans-serif;fill:#2
 .map{fill:#f1f2f4}
 .border{fill:none;stroke:#b9c0ca}
 .visited{fill:#fff3c2}
+.met{fill:#e6e9ee}
+.region{fill:#ffedad;stroke:#e8c95c;stroke-width:.8}
 .hidden{fill:#c6ccd8}
 .touched{fill:#5aa9e6;fill-opacity:.38}
 .opaque{fill:#3b4554}

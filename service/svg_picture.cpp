@@ -32,12 +32,15 @@ struct LayerStyle {
 /// In drawing order.
 constexpr std::array layer_styles{
     LayerStyle{CellLayer::visited, "visited", "cells the viewer looks into"},
-    LayerStyle{CellLayer::hidden, "hidden", "hidden cells (H)"},
+    LayerStyle{CellLayer::hidden, "hidden", "hidden cells"},
     LayerStyle{CellLayer::touched, "touched", "cells that objects touch (I)"},
     LayerStyle{CellLayer::tbv, "tbvcell", "cells of TBVs (T)"},
     LayerStyle{CellLayer::opaque, "opaque", "opaque cells (O)"},
     LayerStyle{CellLayer::line_of_sight, "sight", "line of sight (seed cells)"},
 };
+
+/// Where it is known what the viewer sees, cells that it merely looked into stand back.
+constexpr LayerStyle met_style{CellLayer::visited, "met", "cells of the index it looked into"};
 
 /// One picture being written.
 class Painter {
@@ -52,9 +55,13 @@ class Painter {
 
  private:
   const CellPlane& plane(CellLayer layer) const;
+  const LayerStyle& layer_style(const LayerStyle& entry) const {
+    return entry.layer == CellLayer::visited && !sink_->region().empty() ? met_style : entry;
+  }
   Fate fate_of(const Object& object) const;
   bool in_crop(const Vec2& low, const Vec2& high) const;
   std::string cells() const;
+  std::string region() const;
   std::string lattice_lines() const;
   std::string objects();
   std::string object_svg(const Object& object, Fate fate) const;
@@ -102,9 +109,15 @@ std::string Painter::cells() const {
       return !in_crop({lattice.boundary(0, r.x0), lattice.boundary(1, r.y0)},
                       {lattice.boundary(0, r.x1), lattice.boundary(1, r.y1)});
     });
-    if (!rects.empty()) svg += "<path class=\"" + std::string(entry.style) + "\" d=\"" + path_of(rects) + "\"/>\n";
+    if (!rects.empty())
+      svg += "<path class=\"" + std::string(layer_style(entry).style) + "\" d=\"" + path_of(rects) + "\"/>\n";
   }
   return svg + "</g>\n";
+}
+
+std::string Painter::region() const {
+  if (!sink_ || sink_->region().empty()) return {};
+  return "<path class=\"region\" d=\"" + outline_path(frame_, sink_->region(), true) + "\"/>\n";
 }
 
 std::string Painter::lattice_lines() const {
@@ -217,8 +230,11 @@ std::vector<LegendEntry> Painter::legend() const {
   entries.push_back({Sample::area, "unseen", "hidden objects: " + count(Fate::unseen)});
   entries.push_back({Sample::area, "beyond", "outside the view: " + count(Fate::beyond)});
   if (!sink_) return entries;
+  if (!sink_->region().empty()) entries.push_back({Sample::area, "region", "what it sees, exactly"});
   for (const LayerStyle& entry : layer_styles) {
-    if (!plane(entry.layer).empty()) entries.push_back({Sample::area, entry.style, entry.text});
+    if (!plane(entry.layer).empty()) {
+      entries.push_back({Sample::area, layer_style(entry).style, layer_style(entry).text});
+    }
   }
   if (tbvs_shown_ > 0) {
     entries.push_back({Sample::disc, "tbv", "TBVs of hidden movers: " + std::to_string(tbvs_shown_)});
@@ -242,7 +258,7 @@ std::string Painter::svg() {
   svg += "<text class=\"title\" x=\"" + px(margin) + "\" y=\"34\">" + escaped(picture_.title) + "</text>\n";
   svg += "<text class=\"subtitle\" x=\"" + px(margin) + "\" y=\"58\">" + escaped(picture_.subtitle) + "</text>\n";
   svg += "<g clip-path=\"url(#map)\">\n<rect class=\"map\" " + map + "\n";
-  svg += cells() + lattice_lines() + volume() + objects() + tbvs() + eye();
+  svg += cells() + region() + lattice_lines() + volume() + objects() + tbvs() + eye();
   svg += "</g>\n<rect class=\"border\" " + map + "\n" + svg_legend(legend(), {strip_left, header + 12});
   svg += svg_scale_bar(frame_.scale, strip - 2.0 * margin, {strip_left, height - margin - 20});
   return svg + "</svg>\n";

@@ -1,5 +1,6 @@
-// Pictures after the paper's Figure 1 (Batagelo and Wu 2002): what one viewer's traversal did to the grid,
-// and which objects it left visible. In 3D a horizontal slice through the viewer's height.
+// Pictures after the paper's Figure 1 (Batagelo and Wu 2002): what one viewer's traversal did to the grid or the index,
+// which objects it left visible, and what the viewer sees where that is known. In 3D a horizontal slice through the
+// viewer's height.
 #pragma once
 
 #include <map>
@@ -31,15 +32,18 @@ class PictureSink final : public DrawSink {
 
   void cells(CellLayer layer, const Vec3& low, const Vec3& high) override;
   void tbv(ObjectId object, const Vec3& centre, double radius, bool revealed) override;
+  void region(std::span<const Vec2> outline) override { region_.assign(outline.begin(), outline.end()); }
 
   /// Cells of a layer with the given z index (2D: 0).
   const CellPlane& plane(CellLayer layer, std::int64_t z) const;
   const std::vector<Tbv>& tbvs() const { return tbvs_; }
+  const std::vector<Vec2>& region() const { return region_; }
 
  private:
   Lattice lattice_;
   std::map<std::pair<CellLayer, std::int64_t>, CellPlane> planes_{};
   std::vector<Tbv> tbvs_{};
+  std::vector<Vec2> region_{};
 };
 
 /// What a picture shows.

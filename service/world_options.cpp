@@ -51,11 +51,14 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
   command.add_option("--threads", options.threads, "1 .. 256 (default 1); answers do not depend on it")->type_name("N");
   command
       .add_option("--tbv", options.tbv,
-                  "temporal bounding volumes of hidden movers: off, solid or hollow (default solid)")
+                  "temporal bounding volumes of hidden movers: off, solid or hollow (default solid); silhouette takes "
+                  "hollow as solid")
       ->type_name("KIND");
   command
-      .add_option("--resolution", options.resolution,
-                  "R pixels along a cube face's edge, or WxH rays, 1 .. 8192; as gridcull methods says")
+      .add_option(
+          "--resolution", options.resolution,
+          "silhouette in 3D: R pixels along a cube face's edge, 8 .. 8192, finer is tighter and slower (default "
+          "256, all-round views 128); depth-rays: WxH rays, each 1 .. 8192 (default 128x72)")
       ->type_name("R|WxH");
   command.add_flag("--pull", options.pull,
                    "the method asks for the positions that it needs, instead of being told all");

@@ -29,8 +29,11 @@ is "run with --out prints nothing" "$(cat stdout.txt)" ""
 is "lines of answers" "$(wc -l <out/pvs.jsonl)" $((1 + 12 * 3))
 is "frames in the statistics" "$(json frames out/stats.json)" 12
 is "hash in the statistics" "$(json pvs_hash out/stats.json)" "$hash"
-grep -q 'class="opaque" d="M' out/view.svg || fail "the picture shows no opaque cells"
+grep -q 'class="region" d="M' out/view.svg || fail "the picture shows nothing of what the viewer sees"
+grep -q 'class="met" d="M' out/view.svg || fail "the picture shows no cells"
 grep -q '</svg>' out/view.svg || fail "the picture is not whole"
+good "picture of voxels" run town/scene.json --frames town/frames.jsonl --method voxel --picture "5:$viewer:voxel.svg"
+grep -q 'class="opaque" d="M' voxel.svg || fail "the picture shows no opaque cells"
 is "files written" "$(ls out | tr '\n' ' ')" "pvs.jsonl stats.json view.svg "
 
 # The same answers however they are asked for.

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# The large scene catalog: every method against the exact reference, as a table in Markdown.
+# The large scene catalog: every conservative method against the exact reference, as a table in Markdown.
 #   tests/long/catalog.sh PROGRAM made|real [TABLE]
 # `made`: generated scenes. `real`: recordings in the folder that GRIDCULL_DATA names (status 77 without it, which
-# ctest shows as skipped). The table goes to standard output and to the file TABLE. Status 1 when a conservative method
-# missed anybody, or a command failed. Takes some minutes and 300 MB for a while in the folder for temporary files.
+# ctest shows as skipped). The table goes to standard output and to the file TABLE. Status 1 when a method missed anybody,
+# or a command failed. GRIDCULL_METHODS="voxel silhouette" takes only these methods, GRIDCULL_ONLY=REGEX only scenes
+# whose label matches. Takes some minutes and 300 MB for a while in the folder for temporary files.
 set -uo pipefail
-[ $# -ge 2 ] || { sed -n '2,6s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -ge 2 ] || { sed -n '2,7s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 program=$(realpath "$1") part=$2
 table=$(realpath -m "${3:-/dev/null}")
 work=$(mktemp -d)
@@ -21,12 +22,12 @@ fail() {
 
 say() { printf '%s\n' "$*" | tee -a "$table"; }
 
-# methods DIMENSION: "NAME TBV..." a line for each method that takes it; the modes of its volumes, or "off".
+# methods DIMENSION: "NAME TBV..." a line for each conservative method that takes it; the modes of its volumes, or "off".
 methods() {
-  "$program" methods | awk -v takes="${1}D" '
-    /^[^ ]/ { name = $1; sub(/:$/, "", name) }
-    /^  [23]D/ { fits = index($0, takes) > 0 }
-    /^  options:/ && fits { print name, (/--tbv/ ? "off solid hollow" : "off") }'
+  "$program" methods | awk -v takes="${1}D" -v only=" ${GRIDCULL_METHODS:-} " '
+    /^[^ ]/ { name = $1; sub(/:$/, "", name); if (only ~ /[^ ]/) wanted = index(only, " " name " "); else wanted = 1 }
+    /^  [23]D/ { fits = index($0, takes) > 0 && /conservative/ }
+    /^  options:/ && fits && wanted { print name, (/hollow/ ? "off solid hollow" : /--tbv/ ? "off solid" : "off") }'
 }
 
 # number FILE KEY [AFTER]: the number at KEY, the first after the text AFTER, in a JSON file of ours.
@@ -72,6 +73,7 @@ all() {
 made() {
   local label=$1 every=$2 modes=$3
   shift 3
+  [[ $label =~ ${GRIDCULL_ONLY:-} ]] || return
   "$program" make "$@" --out scene >/dev/null || { fail "make $*"; return; }
   all "$label" scene "$every" "$modes"
   rm -rf scene
