@@ -30,11 +30,11 @@ echo "== a town of 400 buildings and 100 cars; ten drivers look 100 m around"
 echo "== who may be seen by whom, frame by frame"
 "$gridcull" run "$out/town/scene.json" --frames "$out/town/frames.jsonl"
 "$gridcull" run "$out/town/scene.json" --frames "$out/town/frames.jsonl" --out "$out/pvs.jsonl" \
-  --picture "116:409:$out/town.svg" --picture "200:404:$out/town-404.svg"
+  --picture "200:404:$out/town.svg" --picture "116:409:$out/town-409.svg"
 echo "== held against the exact answer, every 30th frame"
 "$gridcull" check "$out/town/scene.json" --frames "$out/town/frames.jsonl" --every 30
 
 echo
 echo "answers:   $out/pvs.jsonl (one line a frame and driver)"
-echo "pictures:  $out/town.svg, $out/town-404.svg (open them in a browser)"
+echo "pictures:  $out/town.svg, $out/town-409.svg (open them in a browser)"
 echo "the town:  $out/town/scene.json, $out/town/frames.jsonl"
