@@ -11,6 +11,7 @@
 #include "gridcull/core/error.h"
 #include "gridcull/core/view_volume.h"
 #include "gridcull/grid/engine_state.h"
+#include "gridcull/grid/hand_over.h"
 
 namespace gridcull {
 namespace {
@@ -145,13 +146,17 @@ void GridEngine::State::answer_views(std::span<const View> views, Answers& out) 
     // More threads than the machine has would only make TBB print a warning.
     // One arena for the engine's life: each finished one leaves some kilobytes in TBB and slows the next down.
     if (!arena) arena = std::make_unique<tbb::task_arena>(std::min(options.threads, tbb::info::default_concurrency()));
-    arena->execute([&] {
-      tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
-        // Isolated: a source that uses TBB itself must not make this thread take up another view meanwhile.
-        tbb::this_task_arena::isolate(
-            [&] { one(i, *tasks[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]); });
-      });
-    });
+    const auto body = [&](std::size_t i) {
+      take_over();
+      ViewAnswerer& task = *tasks[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+      take_over(&task);
+      // Isolated: a source that uses TBB itself must not make this thread take up another view meanwhile.
+      tbb::this_task_arena::isolate([&] { one(i, task); });
+      hand_over(&task);
+    };
+    hand_over();
+    arena->execute([&] { tbb::parallel_for(std::size_t{0}, views.size(), body); });
+    for (const auto& task : tasks) take_over(task.get());
   }
   draw_sink = nullptr;
 }
