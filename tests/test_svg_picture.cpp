@@ -134,6 +134,25 @@ TEST_CASE("a picture is well-formed and shows each object as what it is") {
   CHECK(svg_picture(picture, &sink) == svg);
 }
 
+TEST_CASE("where it is known what the viewer sees, that is drawn and cells looked into stand back") {
+  const Lattice lattice(2, {{0, 0, 0}, {100, 60, 0}}, 1.0, 1 << 20);
+  const View view{.viewer = 3, .pose = {{10, 30, 0}}, .range = 80.0};
+  const Picture picture{.lattice = lattice, .view = view};
+  PictureSink sink(lattice);
+  sink.cells(CellLayer::visited, {8, 28, 0}, {16, 36, 0});
+  sink.cells(CellLayer::hidden, {80, 56, 0}, {88, 64, 0});  // a node of an index may stick out of the lattice
+  CHECK(svg_picture(picture, &sink).find("class=\"visited\"") != std::string::npos);
+  sink.region(std::vector<Vec2>{{10, 30}, {50, 20}, {50, 40}});
+  const std::string svg = svg_picture(picture, &sink);
+  pugi::xml_document document;
+  REQUIRE(document.load_string(svg.c_str()));
+  CHECK(!document.select_node("//path[@class='region']").node().empty());
+  CHECK(!document.select_node("//rect[@class='region']").node().empty());
+  CHECK(!document.select_node("//path[@class='met']").node().empty());
+  CHECK(!document.select_node("//path[@class='hidden']").node().empty());
+  CHECK(document.select_node("//path[@class='visited']").node().empty());
+}
+
 TEST_CASE("in three dimensions only the viewer's layer is drawn") {
   const Lattice lattice(3, {{0, 0, 0}, {10, 10, 10}}, 1.0, 1 << 20);
   PictureSink sink(lattice);
