@@ -14,13 +14,15 @@ Lattice one_cell(const Lattice& lattice) {
   return {lattice.dimension(), {low, low}, lattice.cell(), std::uint64_t{1} << 20};
 }
 
+/// Side of the finest nodes wished for: 2D walks take up to 16 objects at once, so finer nodes would only be passed.
+double node_side(const Lattice& lattice) { return (lattice.dimension() == 2 ? 16.0 : 4.0) * lattice.cell(); }
+
 }  // namespace
 
 GridWorld::GridWorld(const Lattice& cells, bool with_silhouettes)
     : lattice(cells),
-      silhouettes(with_silhouettes
-                      ? std::make_unique<SilhouetteWorld>(cells.dimension(), cells.box(), 4.0 * cells.cell())
-                      : nullptr),
+      silhouettes(with_silhouettes ? std::make_unique<SilhouetteWorld>(cells.dimension(), cells.box(), node_side(cells))
+                                   : nullptr),
       voxels(with_silhouettes ? one_cell(cells) : cells),
       matrix(voxels),
       tbv(voxels),

@@ -39,10 +39,7 @@ class NearFirst {
           nodes_[at_] = item.next;
           node(item.what);
         }
-        batch_.clear();
-        for (std::uint32_t i = objects_[at_]; i != end; i = items_[i].next) batch_.push_back(items_[i].what);
-        std::sort(batch_.begin(), batch_.end());
-        for (const std::uint32_t what : batch_) object(what);
+        take_objects(objects_[at_], object);
         used_[w] &= used_[w] - 1;
       }
     }
@@ -66,6 +63,15 @@ class NearFirst {
     const std::uint32_t bucket =
         place < buckets - 1 ? (place > 0.0 ? static_cast<std::uint32_t>(place) : 0) : buckets - 1;
     return std::max(bucket, at_);
+  }
+  template <class Object>
+  void take_objects(std::uint32_t first, Object&& object) {
+    if (first == end) return;
+    if (items_[first].next == end) return object(items_[first].what);
+    batch_.clear();
+    for (std::uint32_t i = first; i != end; i = items_[i].next) batch_.push_back(items_[i].what);
+    std::sort(batch_.begin(), batch_.end());
+    for (const std::uint32_t what : batch_) object(what);
   }
   void push(Heads& heads, std::uint32_t bucket, std::uint32_t what) {
     const std::uint64_t bit = std::uint64_t{1} << (bucket % 64);

@@ -110,6 +110,26 @@ void Sight2D::hide_behind_chord(const Vec2& centre, double distance, double radi
   (void)hide_behind_edge(span.from, span.to, {centre / power, tie, 0.0}, owner);
 }
 
+bool Sight2D::hides_square(const Vec2& centre, double half) const {
+  const double grown = half + disc_margin * (std::fabs(centre.x) + std::fabs(centre.y)) + 2.0 * blur_;
+  const bool below = centre.y<centre.x, right = centre.y> - centre.x;
+  const int home = below ? (right ? 0 : 3) : (right ? 1 : 2);
+  const Part part = part_in(home, turned(home, centre), grown);
+  if (!part.hidden) return false;
+  // It lies ahead of the axis, so it reaches no farther than into the neighbours.
+  const int next = (home + 1) & 3, last = (home + 3) & 3;
+  return (part.to <= 1.0 || part_in(next, turned(next, centre), grown).hidden) &&
+         (part.from >= -1.0 || part_in(last, turned(last, centre), grown).hidden);
+}
+
+Sight2D::Part Sight2D::part_in(int quadrant, const Vec2& centre, double half) const {
+  if (!(centre.x - half > 0.0)) return {};
+  const double near = 1.0 / (centre.x - half), far = 1.0 / (centre.x + half);
+  const double low = centre.y - half, high = centre.y + half;
+  const double from = low * (low < 0.0 ? near : far), to = high * (high < 0.0 ? far : near);
+  return {buffer_.nearer(quadrant, std::max(from, -1.0), std::min(to, 1.0), near), from, to};
+}
+
 bool Sight2D::shows_box(const Vec2& low, const Vec2& high) const {
   const double dx = std::max({low.x, -high.x, 0.0}), dy = std::max({low.y, -high.y, 0.0});
   if (dx == 0.0 && dy == 0.0) return true;
@@ -153,7 +173,7 @@ double Sight2D::open_width_in_range(const Vec2& a, const Vec2& b, bool left, con
   return open_width(t0 > 0.0 ? a + t0 * d : a, t1 < 1.0 ? a + t1 * d : b, left, line, enough);
 }
 
-bool Sight2D::hide_behind_edge(const Bearing& from, const Bearing& to, const EdgeLine& line, std::uint32_t owner) {
+bool Sight2D::hide_behind_wide_edge(const Bearing& from, const Bearing& to, const EdgeLine& line, std::uint32_t owner) {
   bool nearest = false;
   for_each_run(from, to, [&](int q, double begin, double end) {
     nearest = buffer_.insert(q, begin, end, line.low(q), owner) || nearest;

@@ -14,6 +14,21 @@ Placed2D placed(const Outline2D& outline, const Pose& pose, const Vec2* points) 
   return {&outline, Vec2(centre), outline.radius() + blur, points};
 }
 
+namespace {
+
+/// Asks for memory that is needed unless the disc around the object turns out to be hidden. Outlines have 4 points and
+/// more.
+void ask_for(const Placed2D& object) {
+  const char *outline = reinterpret_cast<const char*>(object.outline),
+             *points = reinterpret_cast<const char*>(object.points);
+  __builtin_prefetch(outline);
+  __builtin_prefetch(outline + sizeof(Outline2D) - 1);
+  __builtin_prefetch(points);
+  __builtin_prefetch(points + 3 * sizeof(Vec2));
+}
+
+}  // namespace
+
 void Silhouettes2D::begin(const ViewVolume& volume) {
   volume_ = &volume;
   sight_.begin(volume);
@@ -26,6 +41,7 @@ bool Silhouettes2D::shows_disc(const Vec2& centre, double radius) const {
 }
 
 bool Silhouettes2D::enter(Slot slot, const Placed2D& object, bool occluder) {
+  if (object.outline != nullptr) ask_for(object);
   const Vec2 centre = object.centre - sight_.eye();
   const double square = glm::dot(centre, centre);
   const Sight2D::Disc where = sight_.look_at_disc(centre, square, object.radius);
@@ -61,7 +77,7 @@ bool Silhouettes2D::enter_outline(Candidate& c, bool occluder) {
 bool Silhouettes2D::hide_behind_outline(Facing back, std::uint32_t owner) {
   bool nearest = false, known = false;
   Bearing end{};  // of the edge before, where `known`
-  for (std::size_t i = 0; i < facing_.size(); ++i) {
+  for (std::size_t i = 0; i < edges_; ++i) {
     if (skipped(facing_[i], back)) {
       known = false;
       continue;
@@ -121,7 +137,7 @@ bool Silhouettes2D::test(const Candidate& c) {
 
 bool Silhouettes2D::outline_open(Facing back, bool straddles) const {
   double width = 0.0;
-  for (std::size_t i = 0; i < facing_.size(); ++i) {
+  for (std::size_t i = 0; i < edges_; ++i) {
     if (skipped(facing_[i], back)) continue;
     const Vec2 &a = points_[i], &b = points_[i + 1];
     const EdgeLine line = line_of(i);
@@ -135,24 +151,42 @@ bool Silhouettes2D::outline_open(Facing back, bool straddles) const {
 }
 
 bool Silhouettes2D::face_all(const Placed2D& object) {
-  const std::size_t count = object.outline->points().size(), edges = object.outline->edges();
+  const std::size_t count = object.outline->points().size();
   closed_ = object.outline->closed();
-  points_.resize(edges + 1);
-  facing_.resize(edges);
-  const Vec2 eye = sight_.eye();
-  for (std::size_t i = 0; i < count; ++i) points_[i] = object.points[i] - eye;
-  if (closed_) points_[count] = points_[0];
-  const double blur = sight_.blur();
-  bool easy = true;
-  for (std::size_t i = 0; i < edges; ++i) {
-    const EasyEdge edge = easy_edge(points_[i], points_[i + 1], blur);
-    facing_[i] = edge.c > 0.0 ? Facing::left : Facing::right;
-    easy = easy && edge.easy;
+  edges_ = object.outline->edges();
+  if (easy_.size() < edges_) {
+    points_.resize(edges_ + 1);
+    easy_.resize(edges_);
+    facing_.resize(edges_ + 1);
   }
-  if (easy) return true;
+  const Vec2 eye = sight_.eye();
+  Vec2* const points = points_.data();
+  for (std::size_t i = 0; i < count; ++i) points[i] = object.points[i] - eye;
+  if (closed_) points[count] = points[0];
+  const bool clear = face_easily() || face_with_care();
+  facing_[edges_] = facing_[0];
+  return clear;
+}
+
+bool Silhouettes2D::face_easily() {
+  const double blur = sight_.blur();
+  const Vec2* const points = points_.data();
+  double* const easy = easy_.data();
+  Facing* const facing = facing_.data();
+  bool all = true;
+  for (std::size_t i = 0, count = edges_; i < count; ++i) {
+    const EasyEdge edge = easy_edge(points[i], points[i + 1], blur);
+    easy[i] = edge.easy ? edge.c : 0.0;
+    facing[i] = edge.c > 0.0 ? Facing::left : Facing::right;
+    all = all && edge.easy;
+  }
+  return all;
+}
+
+bool Silhouettes2D::face_with_care() {
   bool clear = true;
-  for (std::size_t i = 0; i < edges; ++i) {
-    facing_[i] = turn_of_edge(points_[i], points_[i + 1], blur).facing;
+  for (std::size_t i = 0; i < edges_; ++i) {
+    facing_[i] = turn_of_edge(points_[i], points_[i + 1], sight_.blur()).facing;
     clear = clear && facing_[i] != Facing::touches;
   }
   return clear;
@@ -160,8 +194,9 @@ bool Silhouettes2D::face_all(const Placed2D& object) {
 
 /// The object in hand against the sides of the field of view: it is met at no distance, so all directions count.
 bool Silhouettes2D::touches_cone() const {
+  const auto end = points_.begin() + static_cast<std::ptrdiff_t>(edges_ + 1);
   const auto touches = [&](const HalfSpace& side) {
-    return std::any_of(points_.begin(), points_.end(), [&](const Vec2& p) {
+    return std::any_of(points_.begin(), end, [&](const Vec2& p) {
       const double slack = 1e-15 * (std::fabs(p.x) + std::fabs(p.y)) + 1e-3 * sight_.blur();
       return glm::dot(Vec2(side.normal), p) >= -slack;
     });
@@ -199,7 +234,7 @@ double Silhouettes2D::magnitude(const Placed2D& object) const {
 
 std::uint64_t Silhouettes2D::bytes() const {
   return candidates_.capacity() * sizeof(Candidate) + points_.capacity() * sizeof(Vec2) +
-         facing_.capacity() * sizeof(Facing) + sight_.buffer().bytes();
+         easy_.capacity() * sizeof(double) + facing_.capacity() * sizeof(Facing) + sight_.buffer().bytes();
 }
 
 }  // namespace gridcull

@@ -43,6 +43,8 @@ class Silhouettes2D {
   bool shows_box(const Vec2& low, const Vec2& high) const {
     return sight_.shows_box(low - sight_.eye(), high - sight_.eye());
   }
+  /// A cheap test: whether a square of the world with sides along the axes is hidden for sure.
+  bool hides_square(const Vec2& centre, double half) const { return sight_.hides_square(centre - sight_.eye(), half); }
 
   /// Appends the slots of what is visible, in no order that means anything.
   void finish(std::vector<Slot>& visible);
@@ -67,6 +69,8 @@ class Silhouettes2D {
   bool outline_open(Facing back, bool straddles) const;
   /// Fills points_ and facing_. False if the viewer stands on an edge.
   bool face_all(const Placed2D& object);
+  bool face_easily();     // false: with care, then
+  bool face_with_care();  // false if the viewer stands on an edge
   bool holds_viewer(const Placed2D& object) const;
   bool touches_cone() const;
   /// Which edges need no look when the viewer is outside and not on the outline.
@@ -77,20 +81,24 @@ class Silhouettes2D {
   static bool skipped(Facing facing, Facing back) { return facing > Facing::right || facing == back; }
   /// Whether the outline turns back where an edge begins or ends: there it is free.
   bool begin_free(std::size_t edge) const {
-    return closed_ && facing_[edge] != facing_[edge == 0 ? facing_.size() - 1 : edge - 1];
+    return closed_ && facing_[edge] != facing_[edge == 0 ? edges_ - 1 : edge - 1];
   }
-  bool end_free(std::size_t edge) const {
-    return closed_ && facing_[edge] != facing_[edge + 1 < facing_.size() ? edge + 1 : 0];
+  bool end_free(std::size_t edge) const { return closed_ && facing_[edge] != facing_[edge + 1]; }
+  EdgeLine line_of(std::size_t edge) const {
+    const Vec2 &a = points_[edge], &b = points_[edge + 1];
+    return easy_[edge] != 0.0 ? line_of_easy_edge(a, b, easy_[edge], sight_.blur())
+                              : turn_of_edge(a, b, sight_.blur()).line();
   }
-  EdgeLine line_of(std::size_t edge) const { return line_of_edge(points_[edge], points_[edge + 1], sight_.blur()); }
   double magnitude(const Placed2D& object) const;
 
   const ViewVolume* volume_ = nullptr;
   Sight2D sight_;
   std::vector<Candidate> candidates_;
   // Of the object in hand, relative to the viewer:
+  std::size_t edges_ = 0;
   std::vector<Vec2> points_;    // of a closed outline with the first once more at the end
-  std::vector<Facing> facing_;  // of the edges
+  std::vector<double> easy_;    // of the edges: a x b where that is easily known, else 0
+  std::vector<Facing> facing_;  // of the edges; of a closed outline with the first once more at the end
   bool closed_ = false;
 };
 

@@ -28,7 +28,9 @@ void SilhouetteTask2D::run(GridWorld& world, const View& view, Answer& answer, V
   silhouettes_.begin(volume);
   walked_.clear();
   walk_.note_nodes(draw != nullptr ? &walked_ : nullptr);
-  walk_.run(world.silhouettes->index, world.outside, silhouettes_, answer.work, [this](Slot slot) { meet(slot); });
+  walk_.run(
+      world.silhouettes->index, world.outside, silhouettes_, answer.work, [this](Slot slot) { ask(slot); },
+      [this](Slot slot) { meet(slot); });
   const auto walked = std::chrono::steady_clock::now();
   answer.work.occluders = silhouettes_.candidates();
   answer.work.rasters = silhouettes_.sight().buffer().size();
@@ -38,6 +40,11 @@ void SilhouetteTask2D::run(GridWorld& world, const View& view, Answer& answer, V
   const auto end = std::chrono::steady_clock::now();
   result.traverse_us = std::chrono::duration<double, std::micro>(walked - start).count();
   result.collect_us = std::chrono::duration<double, std::micro>(end - walked).count();
+}
+
+void SilhouetteTask2D::ask(Slot slot) {
+  world_->prefetch(slot);
+  world_->silhouettes->outlines.prefetch(slot);
 }
 
 void SilhouetteTask2D::draw_all(DrawSink& sink) const {

@@ -17,6 +17,7 @@ class SilhouetteTask2D final : public ViewAnswerer {
   std::uint64_t bytes() const override;
 
  private:
+  void ask(Slot slot);
   void meet(Slot slot);
   void draw_all(DrawSink& sink) const;
   /// Points of the revealed object with this number, which stay until the view is answered.

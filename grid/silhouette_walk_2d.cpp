@@ -23,9 +23,9 @@ void SilhouetteWalk2D::begin(const LooseIndex& index, std::span<const Slot> outs
   index_ = &index;
   sight_ = &sight;
   spots_.clear();
+  pushed_.clear();
   const double side = index.side(index.top());
   double far = 0.0;
-  std::uint32_t below[4] = {};
   for (int i = 0; i < 4; ++i) {
     const LooseIndex::NodeId id{index.top(), i & 1, i >> 1, 0};
     if (!index.exists(id)) continue;
@@ -33,23 +33,23 @@ void SilhouetteWalk2D::begin(const LooseIndex& index, std::span<const Slot> outs
     slack_ = 2.0 * std::max(0.0, 0.5 * (box.max.x - box.min.x) - side);
     const Vec2 d = glm::max(glm::abs(Vec2(box.min) - sight.eye()), glm::abs(Vec2(box.max) - sight.eye()));
     far = std::max(far, glm::length(d));
-    below[spots_.size()] = index.node(id).below;
     spots_.push_back({id, Vec2(box.centre())});
   }
   limit_ = sight.range() * (1.0 + 1e-9) + sight.blur();
   queue_.begin(std::min(far, sight.range()));
-  for (std::size_t i = 0, tops = spots_.size(); i < tops; ++i) take(Spot(spots_[i]), below[i]);
+  for (std::size_t i = 0, tops = spots_.size(); i < tops; ++i) take(Spot(spots_[i]), index.node(spots_[i].id));
+  push_lists();
   for (const Slot slot : outside) push(slot);
 }
 
-void SilhouetteWalk2D::take(const Spot& spot, std::uint32_t below) {
+void SilhouetteWalk2D::take(const Spot& spot, const LooseIndex::Node& node) {
   const double half = reach(spot.id.level);
   const Vec2 d = glm::max(glm::abs(spot.middle - sight_->eye()) - half, Vec2(0.0));
   const double square = glm::dot(d, d);
   if (square > limit_ * limit_) return;
-  if (below <= crowd) {
-    if (noted_ != nullptr && below > 0) noted_->opened.push_back(spot.id);
-    gather(spot.id);
+  if (node.below <= crowd) {
+    if (noted_ != nullptr && node.below > 0) noted_->opened.push_back(spot.id);
+    gather(spot.id, node);
   } else {
     queue_.push_node(std::sqrt(square), static_cast<std::uint32_t>(spots_.size()));
     spots_.push_back(spot);
@@ -65,30 +65,43 @@ void SilhouetteWalk2D::open(std::uint32_t at, const Silhouettes2D& silhouettes, 
     return;
   }
   ++work.cells_visited;
-  if (noted_ != nullptr) noted_->opened.push_back(spot.id);
-  const LooseIndex::Node& node = index_->node(spot.id);
-  for (Slot slot = node.first; slot != none; slot = index_->next(slot)) push(slot);
-  if (spot.id.level == 0) return;
+  add_list(index_->node(spot.id).first);
+  const LooseIndex::Node* children = spot.id.level > 0 ? index_->children(spot.id) : nullptr;
   const double side = index_->side(spot.id.level);
-  for (int i = 0; i < 4; ++i) {
-    const LooseIndex::NodeId child = child_of(spot.id, i);
-    const std::uint32_t below = index_->node(child).below;  // 0 where there is no such child
-    if (below != 0) take({child, middle_of_child(spot.middle, side, i)}, below);
+  for (int i = 0; children != nullptr && i < 4; ++i) {
+    if (children[i].below != 0) take({child_of(spot.id, i), middle_of_child(spot.middle, side, i)}, children[i]);
+  }
+  push_lists();
+}
+
+void SilhouetteWalk2D::gather(const LooseIndex::NodeId& id, const LooseIndex::Node& node) {
+  add_list(node.first);
+  if (id.level == 0) return;
+  const LooseIndex::Node* children = index_->children(id);
+  for (int i = 0; children != nullptr && i < 4; ++i) {
+    if (children[i].below != 0) gather(child_of(id, i), children[i]);
   }
 }
 
-void SilhouetteWalk2D::gather(const LooseIndex::NodeId& id) {
-  const LooseIndex::Node& node = index_->node(id);
-  std::uint32_t rest = node.below;
-  for (Slot slot = node.first; slot != none; slot = index_->next(slot)) {
-    push(slot);
-    --rest;
-  }
-  for (int i = 0; i < 4 && rest != 0; ++i) {
-    const LooseIndex::NodeId child = child_of(id, i);
-    const std::uint32_t below = index_->node(child).below;  // 0 where there is no such child
-    if (below != 0) gather(child);
-    rest -= below;
+void SilhouetteWalk2D::add_list(Slot first) {
+  if (first == none) return;
+  __builtin_prefetch(&index_->ball(first));
+  lists_.push_back(first);
+}
+
+/// Each step along a list waits for memory, so they are followed side by side.
+void SilhouetteWalk2D::push_lists() {
+  while (!lists_.empty()) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < lists_.size(); ++i) {
+      const Slot slot = lists_[i], next = index_->next(slot);
+      if (next != none) {
+        __builtin_prefetch(&index_->ball(next));
+        lists_[kept++] = next;
+      }
+      push(slot);
+    }
+    lists_.resize(kept);
   }
 }
 
@@ -97,7 +110,9 @@ void SilhouetteWalk2D::push(Slot slot) {
   const Vec2 d = Vec2(ball.centre) - sight_->eye();
   // As rounded: what is a little beyond the range is sorted out by whoever tests the object.
   const double square = glm::dot(d, d), most = limit_ + ball.radius;
-  if (square <= most * most) queue_.push_object(std::sqrt(square) - ball.radius, slot);
+  if (!(square <= most * most)) return;
+  queue_.push_object(std::sqrt(square) - ball.radius, slot);
+  pushed_.push_back(slot);
 }
 
 }  // namespace gridcull

@@ -41,22 +41,23 @@ bool hidden_by(const SlopeBuffer::Piece& piece, const DiscSight& disc, double lo
 }  // namespace
 
 void SlopeBuffer::reset() {
-  for (auto& list : pieces_) {
-    list.clear();
-    list.push_back({-1.0, {}, 0.0, nobody});
-    list.push_back({1.0, {}, 0.0, nobody});
+  for (List& list : lists_) {
+    if (list.pieces.size() < 2) list.pieces.resize(2);
+    list.pieces[0] = {-1.0, {}, 0.0, nobody};
+    list.pieces[1] = {1.0, {}, 0.0, nobody};
+    list.size = 2;
   }
 }
 
-std::size_t SlopeBuffer::find(const std::vector<Piece>& list, double slope) {
+std::size_t SlopeBuffer::find(const List& list, double slope) {
   // The last piece that begins at or before the slope; the end does not count. Halving without branches.
-  std::size_t first = 0, count = list.size() - 1;
-  while (count > 1) {
+  const Piece *pieces = list.pieces.data(), *first = pieces;
+  for (std::size_t count = list.size - 1; count > 1;) {
     const std::size_t half = count / 2;
-    first = list[first + half].from <= slope ? first + half : first;
+    first = first[half].from <= slope ? first + half : first;
     count -= half;
   }
-  return first;
+  return static_cast<std::size_t>(first - pieces);
 }
 
 namespace {
@@ -82,59 +83,99 @@ class Writer {
 
 }  // namespace
 
-// Lines meet in at most one point, so an edge crosses a piece at most once: a piece becomes at most two, and the
-// first and last one more.
 bool SlopeBuffer::insert(int quadrant, double from, double to, const SlopeLine& low, std::uint32_t owner) {
   if (!(from < to)) return false;
-  auto& list = pieces_[static_cast<std::size_t>(quadrant)];
-  std::size_t first = find(list, from);
-  for (;; ++first) {  // pieces that the edge lies behind
-    const Piece& p = list[first];
-    const double end = std::min(to, list[first + 1].from), begin = std::max(from, p.from);
-    if (low.at(begin) > p.line.at(begin) || low.at(end) > p.line.at(end)) break;
-    if (list[first + 1].from >= to) return false;
-  }
-  const double steep = low.a == infinity ? 0.0 : std::sqrt(low.a * low.a + low.b * low.b);
-  const Piece edge{from, low, steep, owner};
-  if (fresh_.size() < 2 * list.size() + 4) fresh_.resize(4 * list.size() + 4);
-  Writer out(fresh_.data());
-  if (list[first].from < from) out.add(list[first].from, list[first]);
-  std::size_t i = first;
-  for (;; ++i) {
-    const Piece& p = list[i];
-    const double begin = std::max(from, p.from), next = list[i + 1].from, end = std::min(to, next);
-    const bool above_begin = low.at(begin) > p.line.at(begin), above_end = low.at(end) > p.line.at(end);
-    out.add(begin, above_begin ? edge : p);
-    if (above_begin != above_end) {
-      const double s = crossing(low, p.line, begin, end);
-      if (s < end) out.add(s, above_begin ? p : edge);
+  List& list = lists_[static_cast<std::size_t>(quadrant)];
+  std::size_t at = find(list, from);
+  const Piece* p = &list.pieces[at];
+  double begin = from, w_begin = low.at(from);
+  for (;; ++p) {  // pieces that the edge lies behind
+    const double next = p[1].from, end = std::min(to, next), w_end = low.at(end);
+    const bool above_begin = w_begin > p->line.at(begin), above_end = w_end > p->line.at(end);
+    if (above_begin || above_end) {
+      const double steep = low.a == infinity ? 0.0 : std::sqrt(low.a * low.a + low.b * low.b);
+      at = static_cast<std::size_t>(p - list.pieces.data());
+      if (above_begin && above_end && to <= next) {
+        insert_into_one(list, at, to, {begin, low, steep, owner});
+      } else {
+        insert_into_many(list, at, to, {begin, low, steep, owner});
+      }
+      return true;
     }
-    if (next < to) continue;
-    if (to < next) out.add(to, p);
-    break;
+    if (next >= to) return false;
+    begin = next;
+    w_begin = w_end;
   }
-  splice(list, first, i + 1, out.count());
-  return true;
 }
 
-/// The first `fresh` of fresh_ take the place of list[first .. end).
-void SlopeBuffer::splice(std::vector<Piece>& list, std::size_t first, std::size_t end, std::size_t fresh) {
-  const std::size_t after = first + fresh, rest = list.size() - end;
-  if (after > end) list.resize(after + rest);
-  if (after != end) std::memmove(list.data() + after, list.data() + end, rest * sizeof(Piece));
-  if (after < end) list.resize(after + rest);
-  std::memcpy(list.data() + first, fresh_.data(), fresh * sizeof(Piece));
+/// The edge, up to `to`, is in front of all that it spans of one piece.
+void SlopeBuffer::insert_into_one(List& list, std::size_t at, double to, const Piece& edge) {
+  const Piece old = list.pieces[at];
+  const bool before = old.from < edge.from, after = to < list.pieces[at + 1].from;
+  if (before || after) resize_hole(list, at + 1, at + 1 + (before ? 1 : 0) + (after ? 1 : 0));
+  Piece* out = &list.pieces[at];
+  if (before) ++out;
+  *out = edge;
+  if (!after) return;
+  out[1] = old;
+  out[1].from = to;
+}
+
+// Lines meet in at most one point, so an edge crosses a piece at most once: a piece becomes at most two, and the
+// first and last one more.
+void SlopeBuffer::insert_into_many(List& list, std::size_t first, double to, const Piece& edge) {
+  if (fresh_.size() < 2 * list.size + 4) fresh_.resize(4 * list.size + 4);
+  Writer out(fresh_.data());
+  const Piece* p = &list.pieces[first];
+  const SlopeLine& low = edge.line;
+  if (p->from < edge.from) out.add(p->from, *p);
+  double begin = edge.from, w_begin = low.at(begin);
+  for (;; ++p) {
+    const double next = p[1].from, end = std::min(to, next), w_end = low.at(end);
+    const bool above_begin = w_begin > p->line.at(begin), above_end = w_end > p->line.at(end);
+    out.add(begin, above_begin ? edge : *p);
+    if (above_begin != above_end) {
+      const double s = crossing(low, p->line, begin, end);
+      if (s < end) out.add(s, above_begin ? *p : edge);
+    }
+    if (next >= to) break;
+    begin = next;
+    w_begin = w_end;
+  }
+  if (to < p[1].from) out.add(to, *p);
+  const auto end = static_cast<std::size_t>(p - list.pieces.data()) + 1;
+  if (first + out.count() != end) resize_hole(list, end, first + out.count());
+  std::memcpy(&list.pieces[first], fresh_.data(), out.count() * sizeof(Piece));
+}
+
+/// What begins at `end` begins at `new_end` from now on.
+void SlopeBuffer::resize_hole(List& list, std::size_t end, std::size_t new_end) {
+  const std::size_t rest = list.size - end;
+  if (list.pieces.size() < new_end + rest) list.pieces.resize(2 * (new_end + rest));
+  std::memmove(list.pieces.data() + new_end, list.pieces.data() + end, rest * sizeof(Piece));
+  list.size = new_end + rest;
 }
 
 void SlopeBuffer::close(int quadrant, double from, double to) { insert(quadrant, from, to, {infinity, 0.0}, nobody); }
 
+bool SlopeBuffer::nearer(int quadrant, double from, double to, double most) const {
+  const List& list = lists_[static_cast<std::size_t>(quadrant)];
+  const Piece* p = &list.pieces[find(list, from)];
+  for (double begin = from;; ++p) {
+    const double next = p[1].from, end = std::min(to, next);
+    if (!(p->line.at(begin) > most && p->line.at(end) > most)) return false;
+    if (next >= to) return true;
+    begin = next;
+  }
+}
+
 double SlopeBuffer::open_width(int quadrant, double from, double to, const SlopeLine& high, double enough) const {
   if (!(from < to)) return 0.0;
-  const auto& list = pieces_[static_cast<std::size_t>(quadrant)];
+  const List& list = lists_[static_cast<std::size_t>(quadrant)];
   double width = 0.0;
   for (std::size_t i = find(list, from);; ++i) {
-    const Piece& p = list[i];
-    const double begin = std::max(from, p.from), next = list[i + 1].from, end = std::min(to, next);
+    const Piece& p = list.pieces[i];
+    const double begin = std::max(from, p.from), next = list.pieces[i + 1].from, end = std::min(to, next);
     const bool above_begin = high.at(begin) >= p.line.at(begin), above_end = high.at(end) >= p.line.at(end);
     if (above_begin && above_end) {
       width += end - begin;
@@ -148,24 +189,25 @@ double SlopeBuffer::open_width(int quadrant, double from, double to, const Slope
 
 double SlopeBuffer::open_width(int quadrant, double from, double to, const DiscSight& disc, double enough) const {
   if (!(from < to)) return 0.0;
-  const auto& list = pieces_[static_cast<std::size_t>(quadrant)];
+  const List& list = lists_[static_cast<std::size_t>(quadrant)];
   double width = 0.0;
   for (std::size_t i = find(list, from);; ++i) {
-    const double begin = std::max(from, list[i].from), next = list[i + 1].from, end = std::min(to, next);
-    if (!hidden_by(list[i], disc, begin, end)) width += end - begin;
+    const Piece& p = list.pieces[i];
+    const double begin = std::max(from, p.from), next = list.pieces[i + 1].from, end = std::min(to, next);
+    if (!hidden_by(p, disc, begin, end)) width += end - begin;
     if (width > enough || next >= to) return width;
   }
 }
 
 std::size_t SlopeBuffer::size() const {
   std::size_t count = 0;
-  for (const auto& list : pieces_) count += list.size() - 1;
+  for (const List& list : lists_) count += list.size - 1;
   return count;
 }
 
 std::uint64_t SlopeBuffer::bytes() const {
   std::uint64_t bytes = fresh_.capacity() * sizeof(Piece);
-  for (const auto& list : pieces_) bytes += list.capacity() * sizeof(Piece);
+  for (const List& list : lists_) bytes += list.pieces.capacity() * sizeof(Piece);
   return bytes;
 }
 

@@ -7,12 +7,14 @@
 // and of how much is hidden early, never of correctness. A crossing computed a little off only makes one true line
 // stand for another. An answer "hidden" is final, since it rests on real edges only.
 //
-// Cost: a binary search and a step for each piece that the edge spans; an edge behind all of them changes nothing.
+// Cost: a binary search and a step for each piece that the edge spans; an edge behind all of them changes nothing. Most
+// edges lie in front of a part of a single piece, which has a short way of its own.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "gridcull/grid/slope_edge.h"
@@ -44,6 +46,8 @@ class SlopeBuffer {
   /// Enters an edge. Whether it is the nearest anywhere.
   bool insert(int quadrant, double from, double to, const SlopeLine& low, std::uint32_t owner);
 
+  /// Whether the buffer is nearer than `most` (w) all over the slopes.
+  bool nearer(int quadrant, double from, double to, double most) const;
   /// Width of the slopes in which the line is not behind the buffer; stops adding beyond `enough`.
   double open_width(int quadrant, double from, double to, const SlopeLine& high, double enough) const;
   /// The same for the near side of a disc, between its tangents; counts whole pieces, so it may be too much.
@@ -52,22 +56,32 @@ class SlopeBuffer {
   /// Calls f(owner) for every piece that has one and counts as more than a ray.
   template <class F>
   void for_each_owner(F&& f) const {
-    for (const auto& list : pieces_) {
-      for (std::size_t i = 0; i + 1 < list.size(); ++i) {
-        if (list[i].owner != nobody && list[i + 1].from - list[i].from > least_width) f(list[i].owner);
+    for (const List& list : lists_) {
+      for (std::size_t i = 0; i + 1 < list.size; ++i) {
+        const Piece& p = list.pieces[i];
+        if (p.owner != nobody && list.pieces[i + 1].from - p.from > least_width) f(p.owner);
       }
     }
   }
   std::size_t size() const;
-  const std::vector<Piece>& pieces(int quadrant) const { return pieces_[static_cast<std::size_t>(quadrant)]; }
+  std::span<const Piece> pieces(int quadrant) const {
+    const List& list = lists_[static_cast<std::size_t>(quadrant)];
+    return {list.pieces.data(), list.size};
+  }
   std::uint64_t bytes() const;
 
  private:
-  static std::size_t find(const std::vector<Piece>& list, double slope);
-  void splice(std::vector<Piece>& list, std::size_t first, std::size_t end, std::size_t fresh);
+  /// The last piece begins at 1 and stands for the end. Room beyond `size` is kept, so that it costs nothing to grow.
+  struct List {
+    std::vector<Piece> pieces{};
+    std::size_t size = 0;
+  };
+  static std::size_t find(const List& list, double slope);
+  static void resize_hole(List& list, std::size_t end, std::size_t new_end);
+  void insert_into_one(List& list, std::size_t at, double to, const Piece& edge);
+  void insert_into_many(List& list, std::size_t first, double to, const Piece& edge);
 
-  /// The last piece of each list begins at 1 and stands for the end.
-  std::array<std::vector<Piece>, 4> pieces_{};
+  std::array<List, 4> lists_{};
   std::vector<Piece> fresh_;
 };
 

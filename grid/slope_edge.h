@@ -162,13 +162,16 @@ inline EasyEdge easy_edge(const Vec2& a, const Vec2& b, double blur) {
   const bool far = std::fabs(c) > 256.0 * blur * (std::fabs(b.x - a.x) + std::fabs(b.y - a.y));
   return {c, clear && far};
 }
-inline EdgeLine line_of_edge(const Vec2& a, const Vec2& b, double blur) {
-  const EasyEdge edge = easy_edge(a, b, blur);
-  if (!edge.easy) return turn_of_edge(a, b, blur).line();
+/// The line of an edge that is easy; `c` as easy_edge() gives it.
+inline EdgeLine line_of_easy_edge(const Vec2& a, const Vec2& b, double c, double blur) {
   const Vec2 d = b - a;
-  const double inverse = 1.0 / edge.c;
+  const double inverse = 1.0 / c;
   return {
       {d.y * inverse, -d.x * inverse}, 1.5 * tie + blur * (std::fabs(d.x) + std::fabs(d.y)) * std::fabs(inverse), 0.0};
+}
+inline EdgeLine line_of_edge(const Vec2& a, const Vec2& b, double blur) {
+  const EasyEdge edge = easy_edge(a, b, blur);
+  return edge.easy ? line_of_easy_edge(a, b, edge.c, blur) : turn_of_edge(a, b, blur).line();
 }
 
 }  // namespace gridcull

@@ -236,11 +236,48 @@ TEST_CASE("the walk meets front objects first, skips what is hidden, and finds t
     silhouettes.begin(volume);
     SilhouetteWalk2D walk;
     WorkCounts work;
-    walk.run(index, {}, silhouettes, work,
-             [&](Slot slot) { silhouettes.enter(slot, store.at(slot), world[slot].occluder); });
+    walk.run(
+        index, {}, silhouettes, work, [](Slot) {},
+        [&](Slot slot) { silhouettes.enter(slot, store.at(slot), world[slot].occluder); });
     met += work.object_tests;
     all += world.size();
     CHECK(listed(world, silhouettes) == seen(world, view, any_order(world, random)));
   }
   CHECK(met < all / 2);
+}
+
+// The cheap test of squares may say no, but never yes where the disc or the box inside shows; across diagonals too.
+TEST_CASE("a square that is hidden for sure hides what it holds") {
+  Random random(26);
+  int sure = 0, across = 0, hidden = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    CAPTURE(seed);
+    const std::vector<Object> world = random_world_2d(seed, 40);
+    const View view = random_view_2d(seed, world);
+    const OutlineStore store = store_of(world);
+    const ViewVolume volume(view, 2);
+    Silhouettes2D silhouettes;
+    silhouettes.begin(volume);
+    for (Slot i = 0; i < world.size(); ++i) {
+      if (world[i].id != view.rides) silhouettes.enter(i, store.at(i), world[i].occluder);
+    }
+    const Vec2 eye = silhouettes.sight().eye();
+    for (int k = 0; k < 100; ++k) {
+      const bool diagonal = k % 3 == 0;
+      const double x = random.uniform(-120, 120),
+                   y = diagonal ? x * random.uniform(0.95, 1.05) : random.uniform(-120, 120);
+      const Vec2 centre = eye + Vec2(x, random.below(2) == 0 ? y : -y);
+      const double half = random.uniform(0.0, 10.0);
+      hidden += silhouettes.shows_disc(centre, half) ? 0 : 1;
+      if (!silhouettes.hides_square(centre, half)) continue;
+      ++sure;
+      across += diagonal ? 1 : 0;
+      CHECK_FALSE(silhouettes.shows_disc(centre, half));
+      for (const Vec2 corner : {Vec2(1, 1), Vec2(-1, 1), Vec2(-1, -1), Vec2(1, -1)}) {
+        CHECK_FALSE(silhouettes.shows_disc(centre + 0.9 * half * corner, 0.1 * half));
+      }
+    }
+  }
+  CHECK(sure > 0.5 * hidden);
+  CHECK(across > 100);
 }
