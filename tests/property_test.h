@@ -1,7 +1,8 @@
 // What the 2D and 3D property tests share.
 //
 // GRIDCULL_PROPERTY_SCENES multiplies the number of worlds (default 1), GRIDCULL_PROPERTY_SEED is the first seed;
-// seeds are consecutive from there. A failure prints its seed and a shrunk script to be kept in kept_misses.cpp.
+// seeds are consecutive from there. A failure prints its seed and a shrunk script to be kept in kept_misses.cpp;
+// GRIDCULL_PROPERTY_SHRINK=0: the seed only.
 #pragma once
 
 #include "property_run.h"
