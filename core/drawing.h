@@ -26,8 +26,8 @@ class DrawSink {
   virtual void cells(CellLayer layer, const Vec3& low, const Vec3& high) = 0;
   /// A temporal bounding volume: ball (2D: disc) about `centre`; `revealed` in this frame by this view.
   virtual void tbv(ObjectId object, const Vec3& centre, double radius, bool revealed) = 0;
-  /// 2D, `silhouette`: exactly what the viewer sees, a closed polygon about the viewpoint, counter-clockwise, metres; the
-  /// range's circle is drawn as chords.
+  /// 2D, `silhouette`: exactly what the viewer sees, a closed polygon about the viewpoint, counter-clockwise, metres;
+  /// the range's circle is drawn as chords.
   virtual void region(std::span<const Vec2> /*outline*/) {}
 };
 

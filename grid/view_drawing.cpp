@@ -53,7 +53,8 @@ void ViewTask::draw_all(DrawSink& sink) const {
     });
   }
   draw_line_of_sight(sink);
-  draw_volumes(world, *result_, [&](Slot slot) { return world.tbv.ball(slot); }, sink);
+  draw_volumes(
+      world, *result_, [&](Slot slot) { return world.tbv.ball(slot); }, sink);
 }
 
 void ViewTask::draw_line_of_sight(DrawSink& sink) const {

@@ -77,7 +77,8 @@ int run_program(int argc, const char* const* argv) {
   } catch (const std::exception& e) {
     return refuse(e.what());
   }
-  if (!action) return refuse("a command is missing: run, check, info, make, import, methods or bench (see gridcull --help)");
+  if (!action)
+    return refuse("a command is missing: run, check, info, make, import, methods or bench (see gridcull --help)");
   return perform(action);
 }
 
