@@ -1,5 +1,6 @@
-// Hundreds of viewers in one query: the same answers, work and reads at any number of threads, pushed or pulled, and
-// the same as when each viewer is asked for alone. Small enough to run under the thread sanitizer (preset tsan).
+// Hundreds of viewers in one query: the same answers, work and reads at any number of threads, the same answers pushed
+// and pulled, and the same as when each viewer is asked for alone. Small enough to run under the thread sanitizer
+// (preset tsan).
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -204,14 +205,15 @@ TEST_CASE("many viewers: the same answers at 1, 2 and 4 threads, pushed and pull
     for (const char* tbv : {"off", "solid", "hollow"}) {
       if (!has_volumes && tbv != std::string("off")) continue;
       CAPTURE(std::string(tbv));
-      const Outcome one = play(method, dimension, tbv, 1, Feed::push);
-      if (tbv != std::string("off")) CHECK(one.shared > 50);
-      for (const int threads : {1, 2, 4}) {
+      const Outcome pushed = play(method, dimension, tbv, 1, Feed::push);
+      const Outcome pulled = play(method, dimension, tbv, 1, Feed::pull);
+      // How much work it is may depend on the feed (positions of hidden objects are older when pulled).
+      CHECK(pulled.answers == pushed.answers);
+      if (tbv != std::string("off")) CHECK(pushed.shared > 50);
+      for (const int threads : {2, 4}) {
         CAPTURE(threads);
-        for (const Feed feed : {Feed::push, Feed::pull}) {
-          CAPTURE(feed == Feed::pull);
-          CHECK(play(method, dimension, tbv, threads, feed) == one);
-        }
+        CHECK(play(method, dimension, tbv, threads, Feed::push) == pushed);
+        CHECK(play(method, dimension, tbv, threads, Feed::pull) == pulled);
       }
     }
   });
