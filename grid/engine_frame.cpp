@@ -111,12 +111,18 @@ void GridEngine::State::discretise() {
   }
 }
 
-// move() has written the poses and said who moved.
+// move() has written the poses and said who moved. Most of them a little: then a silhouette's ball just moves along.
 void GridEngine::State::follow_pushed() {
+  SilhouetteWorld* const balls = options.dimension == 3 ? world.silhouettes.get() : nullptr;
   for (const Slot slot : active) {
     ObjectState& state = world.objects[slot];
     world.note_read(state);
-    if (state.stale) cover(slot);
+    if (!state.stale) continue;
+    if (balls != nullptr && balls->follow(slot, state.pose)) {
+      state.stale = false;
+    } else {
+      cover(slot);
+    }
   }
 }
 
@@ -163,7 +169,9 @@ void GridEngine::State::answer_views(std::span<const View> views, Answers& out) 
 
 void GridEngine::State::merge(std::size_t views) {
   for (std::size_t i = 0; i < views; ++i) {
-    for (const Slot slot : results[i].seen) seen[slot] = 1;
+    if (options.tbv != TbvMode::off) {
+      for (const Slot slot : results[i].seen) seen[slot] = 1;
+    }
     stats.traverse_us += results[i].traverse_us;
     stats.occlude_us += results[i].occlude_us;
     stats.collect_us += results[i].collect_us;
@@ -185,11 +193,12 @@ void GridEngine::State::merge(std::size_t views) {
 
 // Criterion 1 of the paper: not in anybody's PVS and without a volume, so it gets one.
 void GridEngine::State::hide_unseen() {
+  if (options.tbv == TbvMode::off) return;
   hiding.clear();
   std::size_t kept = 0;
   for (const Slot slot : active) {
     ObjectState& state = world.objects[slot];
-    const bool keep = options.tbv == TbvMode::off || seen[slot] || !state.may_hide() || state.patience > 0;
+    const bool keep = seen[slot] || !state.may_hide() || state.patience > 0;
     if (seen[slot]) {
       state.patience = 0;
     } else if (state.patience > 0) {

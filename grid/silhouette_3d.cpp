@@ -119,9 +119,12 @@ void Silhouette3D::begin(const View& view) {
   for (const Slot slot : world.outside) push_entry(slot);
 }
 
+// A window of 512 pixels costs a few per cent more than one of 256 and a fifth of the over-estimation. A cube has six
+// faces to clear: what a short range leaves does not need as many.
 int Silhouette3D::pixels() const {
   if (resolution_ > 0) return (resolution_ + 7) / 8 * 8;
-  return volume_->all_round() ? 128 : 256;
+  if (!volume_->all_round()) return 512;
+  return std::isfinite(volume_->range()) ? 256 : 512;
 }
 
 void Silhouette3D::walk() {

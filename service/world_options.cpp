@@ -58,7 +58,7 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
       .add_option(
           "--resolution", options.resolution,
           "silhouette in 3D: R pixels along a cube face's edge, 8 .. 8192, finer is tighter and slower (default "
-          "256, all-round views 128); depth-rays: WxH rays, each 1 .. 8192 (default 128x72)")
+          "512, 256 all round with a range); depth-rays: WxH rays, each 1 .. 8192 (default 128x72)")
       ->type_name("R|WxH");
   command.add_flag("--pull", options.pull,
                    "the method asks for the positions that it needs, instead of being told all");
