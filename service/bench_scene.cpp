@@ -7,6 +7,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/service/bench_hidden.h"
+#include "gridcull/service/interrupt.h"
 #include "gridcull/service/survey.h"
 #include "gridcull/service/text.h"
 
@@ -142,7 +143,7 @@ BenchSceneName parse_bench_scene(const std::string& text) {
 std::unique_ptr<FrameSource> BenchScene::frames() const {
   if (name.kind.empty()) {
     if (name.frames_path.empty()) return nullptr;
-    return std::make_unique<FrameReader>(name.frames_path, scene.dimension);
+    return std::make_unique<FrameReader>(name.frames_path, scene.dimension, &stop_if_interrupted);
   }
   auto made = make_generator(name.kind, name.options);
   if (!name.boxed) return made;

@@ -1,19 +1,38 @@
 #include "gridcull/service/interrupt.h"
 
 #include <csignal>
+#include <ctime>
 #include <initializer_list>
 
 namespace gridcull {
 namespace {
 
-// A signal handler can reach nothing else: the one global of the program.
+// A signal handler can reach nothing else: the program's only globals.
 volatile std::sig_atomic_t received = 0;
+timer_t nudges;
 
-extern "C" void remember_signal(int signal) { received = signal; }
+// A signal that comes between a look at the flag and a blocking read would leave the program in that read. So it is
+// nudged out of it, again and again, until it has stopped.
+extern "C" void remember_signal(int signal) {
+  received = signal;
+  constexpr itimerspec often{{0, 20'000'000}, {0, 20'000'000}};
+  timer_settime(nudges, 0, &often, nullptr);
+}
+
+extern "C" void nudge(int) {}
+
+void prepare_nudges() {
+  struct sigaction action {};
+  action.sa_handler = nudge;  // no SA_RESTART
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGALRM, &action, nullptr);
+  timer_create(CLOCK_MONOTONIC, nullptr, &nudges);  // sends SIGALRM
+}
 
 }  // namespace
 
 void catch_interrupts() {
+  prepare_nudges();
   struct sigaction action {};
   action.sa_handler = remember_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // no SA_RESTART: a blocked read comes back

@@ -36,7 +36,7 @@ Survey survey_world(const Scene& scene, const std::string& frames) {
     return survey;
   }
   World world(scene);
-  FrameReader reader(frames, scene.dimension);
+  FrameReader reader(frames, scene.dimension, &stop_if_interrupted);
   Progress progress("frames looked at", std::nullopt);
   for (Frame frame; reader.next(frame);) {
     stop_if_interrupted();

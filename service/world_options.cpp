@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "gridcull/core/error.h"
+#include "gridcull/service/interrupt.h"
 #include "gridcull/service/progress.h"
 #include "gridcull/service/resolution.h"
 #include "gridcull/service/text.h"
@@ -94,7 +95,7 @@ std::unique_ptr<Culler> make_culler(const WorldOptions& options, const PreparedW
 
 std::unique_ptr<FrameReader> open_frames(const WorldOptions& options, const PreparedWorld& world) {
   if (options.frames.empty()) return nullptr;
-  return std::make_unique<FrameReader>(options.frames, world.scene.dimension);
+  return std::make_unique<FrameReader>(options.frames, world.scene.dimension, &stop_if_interrupted);
 }
 
 std::optional<std::uint64_t> expected_frames(const WorldOptions& options, const PreparedWorld& world) {

@@ -1,6 +1,7 @@
 #include "gridcull/sim/frames.h"
 
 #include <optional>
+#include <utility>
 
 #include "gridcull/sim/json_text.h"
 #include "gridcull/sim/scene_json.h"
@@ -89,7 +90,8 @@ struct FrameReader::Detail {
   std::optional<double> last{};
   std::string line{};
 
-  Detail(const std::string& path, int dimension_) : reader(path), dimension(dimension_) {}
+  Detail(const std::string& path, int dimension_, std::function<void()> on_signal)
+      : reader(path, std::move(on_signal)), dimension(dimension_) {}
   std::string where() const { return reader.name() + ":" + std::to_string(reader.line_number()); }
   /// The next line that is not blank.
   bool advance() {
@@ -100,7 +102,8 @@ struct FrameReader::Detail {
   }
 };
 
-FrameReader::FrameReader(const std::string& path, int dimension) : detail_(std::make_unique<Detail>(path, dimension)) {
+FrameReader::FrameReader(const std::string& path, int dimension, std::function<void()> on_signal)
+    : detail_(std::make_unique<Detail>(path, dimension, std::move(on_signal))) {
   Detail& d = *detail_;
   if (!d.advance()) {
     throw Error(ErrorCode::bad_message, d.reader.name() + ": expected the first line {\"format\": \"" +

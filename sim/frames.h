@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,7 +64,8 @@ std::string frame_text(const Frame& frame, int dimension);
 class FrameReader final : public FrameSource {
  public:
   /// `dimension` is the scene's. Reads the format line. Throws Error(io), Error(bad_message).
-  FrameReader(const std::string& path, int dimension);
+  /// `on_signal` as for TextReader.
+  FrameReader(const std::string& path, int dimension, std::function<void()> on_signal = {});
   ~FrameReader() override;
 
   /// Throws Error(bad_message) for text that is not a frame and Error(bad_frame) for one that cannot be

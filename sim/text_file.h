@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,7 +14,9 @@ namespace gridcull {
 /// .gz but is not packed, or is a .gz that ends too early or is damaged.
 class TextReader {
  public:
-  explicit TextReader(const std::string& path);
+  /// `on_signal` is called when a signal breaks off a read that waits (a pipe, a terminal): it may throw to end the
+  /// wait; otherwise, and without it, the read is taken up again.
+  explicit TextReader(const std::string& path, std::function<void()> on_signal = {});
   ~TextReader();
   TextReader(TextReader&&) noexcept;
   TextReader& operator=(TextReader&&) noexcept;

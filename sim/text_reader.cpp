@@ -1,5 +1,6 @@
 #include <cerrno>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
@@ -30,6 +31,7 @@ struct TextReader::Detail {
   std::vector<char> buffer;  // bytes begin .. end are unread
   std::size_t begin = 0, end = 0;
   std::uint64_t lines = 0;
+  std::function<void()> on_signal{};
 
   explicit Detail(const std::string& path) : name(path == "-" ? "standard input" : path) {
     if (path == "-") {
@@ -67,6 +69,7 @@ struct TextReader::Detail {
       const ssize_t got = ::read(file, into, size);
       if (got >= 0) return static_cast<std::size_t>(got);
       if (errno != EINTR) refuse(name, "cannot be read: " + system_message());
+      if (on_signal) on_signal();
     }
   }
 
@@ -89,7 +92,10 @@ struct TextReader::Detail {
   }
 };
 
-TextReader::TextReader(const std::string& path) : detail_(std::make_unique<Detail>(path)) {}
+TextReader::TextReader(const std::string& path, std::function<void()> on_signal)
+    : detail_(std::make_unique<Detail>(path)) {
+  detail_->on_signal = std::move(on_signal);
+}
 TextReader::~TextReader() = default;
 TextReader::TextReader(TextReader&&) noexcept = default;
 TextReader& TextReader::operator=(TextReader&&) noexcept = default;

@@ -2,6 +2,8 @@
 # Ctrl-C and requests to end: the frame in hand is finished, nothing unfinished is left, the status says why.
 source "$(dirname "$0")/library.sh"
 set -m  # jobs of their own, so that they do not ignore SIGINT
+# A shell that was itself started with SIGINT ignored (a background job) cannot give it back to its jobs; env can.
+heeding=(env --default-signal=INT,TERM)
 
 "$program" make town --out town --count 400 --viewers 40 --range 100 --frames 200 >/dev/null || fail "make"
 
@@ -9,7 +11,7 @@ set -m  # jobs of their own, so that they do not ignore SIGINT
 stopped_by() {  # stopped_by SIGNAL STATUS
   checks=$((checks + 1))
   mkfifo pipe
-  "$program" run town/scene.json --frames - --out out/pvs.jsonl --stats out/stats.json <pipe >stdout.txt 2>stderr.txt &
+  "${heeding[@]}" "$program" run town/scene.json --frames - --out out/pvs.jsonl --stats out/stats.json <pipe >stdout.txt 2>stderr.txt &
   local child=$! status
   exec 3>pipe
   head -n 20 town/frames.jsonl >&3
