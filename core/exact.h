@@ -25,8 +25,8 @@ struct ExactAnswer {
 /// 2D, analytic: angular sweep over disc and polygon boundaries. Directions narrower than 1e-9 radians are
 /// left out. Cost about (boundaries in reach) * (boundaries on a ray).
 /// Places within 1e-12 of the coordinates' size count as one, decided so that no right method is blamed:
-/// what is touched at the same distance as an occluder is seen, an object holds the viewer only when it does by
-/// more than that, and a viewer beside a thin wall by less (but not exactly on it) is told of nothing beyond.
+/// what is touched at the same distance as an occluder is seen, and an object holds the viewer only when it does by
+/// more than that. On which side of a wall's line the viewer stands is decided exactly, on the rounded world points.
 /// Throws Error(bad_scene) for 3D shapes, Error(bad_frame) for a view out of range.
 ExactAnswer exact_visible_2d(std::span<const Object> world, const View& view);
 

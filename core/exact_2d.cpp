@@ -136,7 +136,7 @@ class Sweep {
 
   /// Bodies come by their least distance, so those beyond the nearest entry need no look.
   void judge(const Vec2& ray, double width) {
-    double nearest_entry = around_.limit;
+    double nearest_entry = infinity;
     candidates_.clear();
     for (const std::uint32_t body : active_) {
       const Body& b = around_.bodies[body];

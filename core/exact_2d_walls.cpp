@@ -35,6 +35,10 @@ Sector sector_of(const View& view) {
   return {from, turns_between(from, turn_of(counter))};
 }
 
+/// Neither without width (tiny and far) nor, by rounding, with an end a bit before its beginning: no wall spans more
+/// than half a turn.
+bool has_width(const Sector& span) { return span.width > 0.0 && span.width <= 2.0 + 1e-9; }
+
 double distance_to_segment(const Vec2& a, const Vec2& b) {
   const Vec2 along = b - a;
   const double square = glm::dot(along, along);
@@ -49,7 +53,6 @@ class Builder {
     out_.sector = sector_of(view);
     out_.range = view.range;
     out_.magnitude = std::max(std::fabs(eye_.x), std::fabs(eye_.y));
-    out_.limit = infinity;
   }
 
   void add(const Object& object) {
@@ -89,7 +92,7 @@ class Builder {
     const Vec2 left(-centre.y, centre.x);
     const double from = turn_of(tangent * centre - radius * left);
     wall.span = {from, turns_between(from, turn_of(tangent * centre + radius * left))};
-    if (!out_.sector.meets(wall.span)) return;
+    if (!has_width(wall.span) || !out_.sector.meets(wall.span)) return;
     wall.body = open_body(object, BodyKind::disc, wall.nearest);
     out_.walls.push_back(wall);
   }
@@ -99,7 +102,7 @@ class Builder {
     const std::uint32_t body = open_body(object, thin ? BodyKind::thin : BodyKind::solid, infinity);
     const std::size_t walls_before = out_.walls.size();
     double extent = 0.0;
-    bool inside = false, astride = false;
+    bool inside = false;
     Body& b = out_.bodies.back();
     for (std::size_t i = thin ? 1 : 0; i < outline.size(); ++i) {
       const Vec2 &p = outline[i == 0 ? outline.size() - 1 : i - 1], &q = outline[i];
@@ -108,7 +111,6 @@ class Builder {
       const double size = glm::length(q - eye_);
       extent = std::max(extent, size);
       b.nearest = std::min(b.nearest, nearest);
-      astride = astride || (side != 0 && nearest <= tie * (out_.magnitude + size));
       // Even-odd: the ray to +x crosses walls that pass from below the viewer (or level) to above.
       if ((p.y > eye_.y) != (q.y > eye_.y) && side == (q.y > p.y ? 1 : -1)) inside = !inside;
       if (side != 0) add_straight(side > 0 ? p - eye_ : q - eye_, side > 0 ? q - eye_ : p - eye_, nearest, body);
@@ -120,7 +122,6 @@ class Builder {
       out_.bodies.pop_back();
       return;
     }
-    if (thin && b.occluder && astride) out_.limit = std::min(out_.limit, blur);
   }
 
   /// From a to b counter-clockwise about the viewer.
@@ -134,9 +135,7 @@ class Builder {
     wall.span.from = turn_of(a);
     wall.span.width = turns_between(wall.span.from, turn_of(b));
     wall.body = body;
-    // No width, or (by rounding) an end a bit before its beginning: never half a turn or more.
-    const bool empty = wall.span.width == 0.0 || wall.span.width > 2.0 + 1e-9;
-    if (!empty && out_.sector.meets(wall.span)) out_.walls.push_back(wall);
+    if (has_width(wall.span) && out_.sector.meets(wall.span)) out_.walls.push_back(wall);
   }
 
   std::uint32_t open_body(const Object& object, BodyKind kind, double nearest) {

@@ -46,10 +46,6 @@ struct Surroundings {
   Sector sector;                     ///< the field of view
   double range;
   double magnitude;  ///< of the viewer's coordinates
-  /// Nothing farther than this is seen: finite when the viewer stands within rounding of a thin wall, but
-  /// not exactly on it. Which side it is on is then anyone's guess, and either answer is right; this
-  /// reference reports less.
-  double limit;
 };
 
 /// Throws Error(bad_scene) for 3D shapes, Error(bad_frame) for a view out of range.

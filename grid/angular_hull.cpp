@@ -20,7 +20,7 @@ void frame_about(const Vec3& axis, Vec3& u, Vec3& v) {
 
 }  // namespace
 
-void angular_hull(std::span<SeenPoint> points, const Vec3& axis, Outline& out) {
+bool angular_hull(std::span<SeenPoint> points, const Vec3& axis, Outline& out) {
   out.count = 0;
   Vec3 u, v;
   frame_about(axis, u, v);
@@ -31,7 +31,7 @@ void angular_hull(std::span<SeenPoint> points, const Vec3& axis, Outline& out) {
   std::sort(points.begin(), points.end(), [](const SeenPoint& a, const SeenPoint& b) {
     return a.seen.x < b.seen.x || (a.seen.x == b.seen.x && a.seen.y < b.seen.y);
   });
-  std::array<std::uint8_t, 2 * Outline::max_rays + 2> hull;
+  std::array<std::uint8_t, most_seen_points + 1> hull;  // the first point twice
   std::size_t count = 0;
   const auto add = [&](std::size_t i, std::size_t base) {
     const auto turns = [&] {
@@ -45,8 +45,10 @@ void angular_hull(std::span<SeenPoint> points, const Vec3& axis, Outline& out) {
   const std::size_t base = --count;
   for (std::size_t i = points.size(); i-- > 0;) add(i, base);
   --count;
+  if (count > Outline::max_rays) return false;
   for (std::size_t i = 0; i < count; ++i) out.rays[i] = points[hull[i]].point;
   out.count = static_cast<int>(count);
+  return true;
 }
 
 }  // namespace gridcull

@@ -13,10 +13,12 @@ struct SeenPoint {
   Vec2 seen;
 };
 
+inline constexpr std::size_t most_seen_points = 3 * Outline::max_rays;
+
 /// The loop of those points whose directions span the cone of all, turned as Outline says; fewer than three when the
-/// cone is flat. `axis` has dot(axis, p) > 0 for all points. At most Outline::max_rays. The points are reordered.
-/// Rounded: a direction left out lies outside the loop by at most some 2^-48 of the points' spread.
-/// `nearest` and `farthest` are left to the caller.
-void angular_hull(std::span<SeenPoint> points, const Vec3& axis, Outline& out);
+/// cone is flat. False, and no loop, when it has more than Outline::max_rays. `axis` has dot(axis, p) > 0 for all
+/// points; at most most_seen_points of them. The points are reordered. Rounded: a direction left out lies outside the
+/// loop by at most some 2^-48 of the points' spread. `nearest` and `farthest` are left to the caller.
+bool angular_hull(std::span<SeenPoint> points, const Vec3& axis, Outline& out);
 
 }  // namespace gridcull

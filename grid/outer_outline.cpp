@@ -97,7 +97,7 @@ bool outline_of(const PlacedPiece& hull, Outline& out) {
 
 /// Points that span the part of the front faces with low <= dot(m, p) <= high.
 struct SlabPoints {
-  std::array<SeenPoint, 3 * Outline::max_rays> points;
+  std::array<SeenPoint, most_seen_points> points;
   std::size_t count = 0;
   bool full = false;
 
@@ -164,8 +164,7 @@ Slice outer_slice(const PlacedPiece& hull, double near, double far, Outline& out
   slab_points(hull, m, low, high, points);
   if (points.count < 3) return Slice::empty;
   if (points.full) return Slice::unknown;
-  angular_hull({points.points.data(), points.count}, m, out);
-  if (out.count < 3) return Slice::unknown;
+  if (!angular_hull({points.points.data(), points.count}, m, out) || out.count < 3) return Slice::unknown;
   out.nearest = std::max(near, whole.nearest);
   out.farthest = std::min(far, whole.farthest);
   return Slice::outline;

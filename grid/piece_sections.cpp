@@ -137,8 +137,7 @@ class Sections {
     });
     if (points.count < 3) return false;
     const Vec3 axis = -placed_.piece.faces[static_cast<std::size_t>(loop_.highest)].normal;
-    angular_hull({points.points.data(), points.count}, axis, out.outline);
-    if (out.outline.count < 3) return false;
+    if (!angular_hull({points.points.data(), points.count}, axis, out.outline) || out.outline.count < 3) return false;
     double square = 0.0;
     for (int i = 0; i < out.outline.count; ++i) {
       Vec3& ray = out.outline.rays[static_cast<std::size_t>(i)];

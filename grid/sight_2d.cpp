@@ -34,11 +34,14 @@ void Sight2D::begin(const ViewVolume& volume) {
   eye_ = Vec2(volume.apex());
   range_ = volume.range();
   blur_ = tie * std::max(std::fabs(eye_.x), std::fabs(eye_.y));
+  least_ = least_width;
   buffer_.reset();
   if (volume.all_round()) return;
   // The sides' normals point inwards, clockwise side first; the rays that bound the field of view:
   const Vec3 &right = volume.begin()[0].normal, &left = volume.begin()[1].normal;
   const Bearing first = bearing_of({right.y, -right.x}), last = bearing_of({-left.y, left.x});
+  // Normals of unit length: the sine of the angle between the sides.
+  if (volume.convex() && glm::dot(Vec2(left), Vec2(right)) < 0.0 && std::fabs(cross2(left, right)) < tiny) least_ = 0.0;
   const auto close = [&](int q, double from, double to) { buffer_.close(q, from, to); };
   if (volume.convex() && last.quadrant == first.quadrant) {
     // All but a part of one quadrant.
@@ -66,12 +69,13 @@ Sight2D::Disc Sight2D::look_at_disc(const Vec2& centre, double square, double ra
     const double rest = (range_ - along) * (range_ + along) + 1e-14 * square;
     span = turned_both_ways(centre, along, std::sqrt(std::max(0.0, rest)));
   }
+  const double least = seems_tiny(square, radius) ? 0.0 : least_;
   double width = 0.0;
   for_each_run(span.from, span.to, [&](int q, double from, double to) {
-    if (width > least_width) return;
-    width += buffer_.open_width(q, from, to, {turned(q, centre), outer, power}, least_width - width);
+    if (width > least) return;
+    width += buffer_.open_width(q, from, to, {turned(q, centre), outer, power}, least - width);
   });
-  return width > least_width ? Disc::open : Disc::hidden;
+  return width > least ? Disc::open : Disc::hidden;
 }
 
 void Sight2D::hide_behind_disc(const Vec2& centre, double radius, std::uint32_t owner) {
@@ -138,7 +142,7 @@ bool Sight2D::shows_box(const Vec2& low, const Vec2& high) const {
     const EdgeTurn turn = turn_of_edge(a, b, blur_);
     if (turn.facing == Facing::touches) return true;
     const bool left = turn.facing == Facing::left;
-    return turn.facing != Facing::radial && open_width(a, b, left, turn.line(), least_width) > least_width;
+    return turn.facing != Facing::radial && open_width(a, b, left, turn.line(), least_) > least_;
   };
   const double x = low.x > 0.0 ? low.x : high.x, y = low.y > 0.0 ? low.y : high.y;
   return (dx > 0.0 && shows({x, low.y}, {x, high.y})) || (dy > 0.0 && shows({low.x, y}, {high.x, y}));

@@ -36,6 +36,11 @@ class Sight2D {
   /// Enters the near side of a disc that does not hold the viewer.
   void hide_behind_disc(const Vec2& centre, double radius, std::uint32_t owner);
 
+  /// Whether a disc around an object, `square` from its centre to the viewer, seems so small that it stands for it.
+  static bool seems_tiny(double square, double radius) { return 4.0 * radius * radius < tiny * tiny * square; }
+  /// What is open in slopes of no more than this altogether counts as hidden; 0 in a view too narrow for that.
+  double least() const { return least_; }
+
   /// A cheap test: whether all of a square with sides along the axes is behind the buffer for sure.
   bool hides_square(const Vec2& centre, double half) const;
 
@@ -80,6 +85,7 @@ class Sight2D {
   Vec2 eye_{0.0};
   double range_ = 0.0;
   double blur_ = 0.0;
+  double least_ = least_width;
   SlopeBuffer buffer_;
 };
 

@@ -51,7 +51,7 @@ bool Silhouettes2D::enter(Slot slot, const Placed2D& object, bool occluder) {
   if (where == Sight2D::Disc::around && holds_viewer(object)) {
     c.seen = true;
   } else if (object.outline != nullptr) {
-    if (!enter_outline(c, occluder)) return false;
+    if (!enter_outline(c, occluder) && !Sight2D::seems_tiny(square, object.radius)) return false;
   } else {
     c.seen = where == Sight2D::Disc::around && volume_->may_touch_ball({object.centre, 0.0}, object.radius);
     if (occluder) sight_.hide_behind_disc(centre, object.radius, static_cast<std::uint32_t>(candidates_.size()));
@@ -127,9 +127,10 @@ void Silhouettes2D::finish(std::vector<Slot>& visible) {
 }
 
 bool Silhouettes2D::test(const Candidate& c) {
-  if (c.object.outline == nullptr) {
-    const Vec2 centre = c.object.centre - sight_.eye();
-    return sight_.look_at_disc(centre, glm::dot(centre, centre), c.object.radius) == Sight2D::Disc::open;
+  const Vec2 centre = c.object.centre - sight_.eye();
+  const double square = glm::dot(centre, centre);
+  if (c.object.outline == nullptr || Sight2D::seems_tiny(square, c.object.radius)) {
+    return sight_.look_at_disc(centre, square, c.object.radius) == Sight2D::Disc::open;
   }
   const bool clear = face_all(c.object);
   return outline_open(clear ? back_of(*c.object.outline) : Facing::radial, c.straddles);
@@ -142,10 +143,10 @@ bool Silhouettes2D::outline_open(Facing back, bool straddles) const {
     const Vec2 &a = points_[i], &b = points_[i + 1];
     const EdgeLine line = line_of(i);
     const bool left = facing_[i] == Facing::left;
-    const double enough = least_width - width;
+    const double enough = sight_.least() - width;
     width +=
         straddles ? sight_.open_width_in_range(a, b, left, line, enough) : sight_.open_width(a, b, left, line, enough);
-    if (width > least_width) return true;
+    if (width > sight_.least()) return true;
   }
   return false;
 }

@@ -39,17 +39,6 @@ constexpr std::uint32_t few = 2;
 /// Distances are rounded three or four times, each by at most 2^-52 of the coordinates that went in.
 constexpr double rounding = 0x1p-46;
 
-std::uint64_t packed(const LooseIndex::NodeId& id) {
-  return static_cast<std::uint64_t>(id.level) << 60 | static_cast<std::uint64_t>(id.x) << 40 |
-         static_cast<std::uint64_t>(id.y) << 20 | static_cast<std::uint64_t>(id.z);
-}
-
-LooseIndex::NodeId unpacked(std::uint64_t p) {
-  constexpr std::uint64_t mask = (1 << 20) - 1;
-  return {static_cast<int>(p >> 60), static_cast<std::int32_t>(p >> 40 & mask),
-          static_cast<std::int32_t>(p >> 20 & mask), static_cast<std::int32_t>(p & mask)};
-}
-
 double distance_to_box(const Vec3& low, const Vec3& high) {
   const auto gap = [&](int k) { return std::max({low[k], -high[k], 0.0}); };
   const double x = gap(0), y = gap(1), z = gap(2);
@@ -104,6 +93,7 @@ void Silhouette3D::begin(const View& view) {
   limit_ = volume_->range() * (1.0 + 1e-12);
   mask_.begin(*volume_, pixels());
   mask_.clear_counts();
+  nodes_.clear();
   occluders_.clear();
   rays_.clear();
   sliced_.clear();
@@ -131,7 +121,7 @@ void Silhouette3D::walk() {
   FrontQueue::Item item;
   while (!mask_.full() && queue_.pop(item)) {
     switch (item.kind) {
-      case FrontQueue::Kind::node: open_node(item.what); break;
+      case FrontQueue::Kind::node: open_node(nodes_[item.what]); break;
       case FrontQueue::Kind::volume: look_at_volume(static_cast<Slot>(item.what)); break;
       case FrontQueue::Kind::object: look(static_cast<Slot>(item.what)); break;
       case FrontQueue::Kind::slice: look_at_slices(sliced_[item.what]); break;
@@ -151,12 +141,13 @@ Silhouette3D::Box Silhouette3D::box_of(const LooseIndex::NodeId& id) const {
 void Silhouette3D::push_node(const LooseIndex::NodeId& id) {
   const Box box = box_of(id);
   const double key = distance_to_box(box.low, box.high) - blur_;
-  if (key <= limit_) queue_.push(FrontQueue::Kind::node, key, packed(id));
+  if (key > limit_) return;
+  nodes_.push_back(id);
+  queue_.push(FrontQueue::Kind::node, key, nodes_.size() - 1);
 }
 
-void Silhouette3D::open_node(std::uint64_t what) {
+void Silhouette3D::open_node(LooseIndex::NodeId id) {
   const LooseIndex& index = shapes_->index;
-  const LooseIndex::NodeId id = unpacked(what);
   const LooseIndex::Node& node = index.node(id);
   // A test costs as much as those of the few entries that it might spare.
   if (node.below > few) {
@@ -359,7 +350,7 @@ void Silhouette3D::enter(const Occluder& occluder) {
 
 std::uint64_t Silhouette3D::bytes() const {
   return mask_.bytes() + queue_.bytes() + occluders_.capacity() * sizeof(Occluder) + rays_.capacity() * sizeof(Vec3) +
-         sliced_.capacity() * sizeof(Sliced);
+         sliced_.capacity() * sizeof(Sliced) + nodes_.capacity() * sizeof(LooseIndex::NodeId);
 }
 
 }  // namespace gridcull

@@ -50,7 +50,7 @@ class Silhouette3D final : public ViewAnswerer {
   Box box_of(const LooseIndex::NodeId& id) const;
   void push_node(const LooseIndex::NodeId& id);
   void push_children(const LooseIndex::NodeId& id);
-  void open_node(std::uint64_t packed);
+  void open_node(LooseIndex::NodeId id);
   void push_entry(Slot slot);
   void push(FrontQueue::Kind kind, Slot slot, const LooseBall& ball);
   void look_at_volume(Slot slot);
@@ -83,10 +83,11 @@ class Silhouette3D final : public ViewAnswerer {
   Answer* answer_ = nullptr;
   ViewResult* result_ = nullptr;
   Slot rides_ = none;
-  double limit_ = 0.0;      // nothing whose nearest point is farther can be reported
-  double apex_size_ = 0.0;  // sum of its coordinates' magnitudes
-  Vec3 corner_{0.0};        // of the index, relative to the viewpoint
-  double blur_ = 0.0;       // metres: rounding of distances to anything in the index
+  double limit_ = 0.0;                     // nothing whose nearest point is farther can be reported
+  double apex_size_ = 0.0;                 // sum of its coordinates' magnitudes
+  Vec3 corner_{0.0};                       // of the index, relative to the viewpoint
+  double blur_ = 0.0;                      // metres: rounding of distances to anything in the index
+  std::vector<LooseIndex::NodeId> nodes_;  // in the queue, as occluders are
   std::vector<Occluder> occluders_;
   std::vector<Vec3> rays_;
   std::vector<Sliced> sliced_;

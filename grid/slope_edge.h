@@ -19,7 +19,9 @@
 // tested with `high`: what is hidden only by the width of a rounding is seen, and so are walls that coincide.
 // What rounding may do to the ends of edges (3 u of slope) can close a gap, or hide what sticks out, by less than
 // that: what is visible in slopes of less than least_width altogether, or along edges narrower than 2^-38, counts as
-// single rays, as core/culler.h allows.
+// single rays. Not so where everything is as narrow as that: objects that seem smaller than `tiny` are tested as the
+// discs around them, and they, and everything in a view narrower than that, are seen in any slope that is open
+// (sight_2d.h).
 #pragma once
 
 #include <cmath>
@@ -31,6 +33,8 @@ namespace gridcull {
 
 /// What is visible in slopes of less than this altogether counts as hidden: 1.2e-10.
 inline constexpr double least_width = 0x1p-33;
+/// Radians: things and views narrower than this are too narrow for that rule.
+inline constexpr double tiny = 0x1p-30;
 
 /// w over the slopes of one quadrant.
 struct SlopeLine {

@@ -63,6 +63,15 @@ std::vector<KeptMiss> kept_misses() {
                    {Object{37u, Sphere{0.1}, {{0, 0, 0}}, std::optional<double>{1e+09}, true, false}},
                    {ScriptFrame{1000000.0000000029, {}, {}, {ScriptMove{37u, {{1.5, 0.15, 2.1}}}}, {}},
                     ScriptFrame{1000000.000000003, {}, {}, {ScriptMove{37u, {{1.5, 0.25, 2.1}}}}, {}}}}},
+      {"in a world of more than 65,536 nodes along one axis the wrong nodes were opened, and nobody was seen",
+       WorldScript{3,
+                   {{0, 0, 0}, {300000, 8, 8}},
+                   1,
+                   "off",
+                   1,
+                   {Object{1u, Cuboid{{4, 2, 2}}, {{100, 4, 1}}, std::nullopt, true, false},
+                    Object{2u, Sphere{1}, {{250000, 4, 1}}, std::nullopt, true, false}},
+                   {ScriptFrame{0, {}, {}, {}, {View{1u, {{90, 4, 1.6}}}, View{2u, {{249990, 4, 1.6}}}}}}}},
   };
 }
 

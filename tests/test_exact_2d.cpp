@@ -75,7 +75,7 @@ TEST_CASE("exact 2d: moving, turning and mirroring the world changes nothing") {
   }
 }
 
-TEST_CASE("exact 2d: beside a thin wall by less than rounding nothing beyond is claimed") {
+TEST_CASE("exact 2d: the side of a thin wall is decided exactly, however near") {
   const std::vector<Object> world{{.id = 0, .shape = Polyline{{{0, -10}, {0, 10}}}},
                                   {.id = 1, .shape = Disc{1}, .pose = {{5, 0, 0}, {}}},
                                   {.id = 2, .shape = Disc{1}, .pose = {{-5, 0, 0}, {}}}};
@@ -86,10 +86,20 @@ TEST_CASE("exact 2d: beside a thin wall by less than rounding nothing beyond is 
   };
   CHECK(seen_from(1e-6) == std::vector<ObjectId>{0, 1});
   CHECK(seen_from(-1e-6) == std::vector<ObjectId>{0, 2});
-  CHECK(seen_from(1e-15) == std::vector<ObjectId>{0});
-  CHECK(seen_from(-1e-15) == std::vector<ObjectId>{0});
+  CHECK(seen_from(1e-15) == std::vector<ObjectId>{0, 1});
+  CHECK(seen_from(-1e-15) == std::vector<ObjectId>{0, 2});
   CHECK(has(seen_from(0.0), 1));
   CHECK(has(seen_from(0.0), 2));
+}
+
+TEST_CASE("exact 2d: discs too small and far to have a width in doubles are left out") {
+  for (const double radius : {1e-13, 1e-15, 1e-16, 1e-300}) {
+    CAPTURE(radius);
+    for (const Vec3& position : {Vec3(30, 7, 0), Vec3(9e8, 9e8, 0), Vec3(-20, 1e-9, 0)}) {
+      const std::vector<Object> world{{.id = 0, .shape = Disc{radius}, .pose = {position, {}}}};
+      CHECK(exact_visible_2d(world, View{}).visible.empty());
+    }
+  }
 }
 
 TEST_CASE("exact 2d: 3D shapes and impossible views are refused") {

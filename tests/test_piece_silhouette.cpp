@@ -1,6 +1,10 @@
 // Brute force: rays inside a silhouette must meet the shape no later than its key.
+#include <cmath>
+#include <numbers>
+
 #include <doctest/doctest.h>
 
+#include "gridcull/grid/angular_hull.h"
 #include "gridcull/grid/occluder_pieces.h"
 #include "gridcull/grid/piece_sections.h"
 #include "gridcull/grid/piece_silhouette.h"
@@ -74,6 +78,37 @@ TEST_CASE("silhouettes and sections: every ray inside meets the shape by the key
                       << counts.rays << " rays");
   CHECK(counts.used > 4 * counts.refused);
   CHECK(counts.sections > counts.used);
+}
+
+// A lid of 32 corners, seen from above its middle: the circle in which the section at its one key between cuts the
+// lid's plane crosses 30 edges twice. That is more points than an outline has room for.
+TEST_CASE("sections: what has too many corners is left out, and nothing beyond an outline is written") {
+  const double spike = 1.25, circle = std::sqrt(std::sqrt(1.0 + spike * spike) - 1.0);
+  const double pi = std::numbers::pi, gap = std::acos(circle / spike), step = 2.0 * (pi - gap) / 30.0;
+  const double radius = circle / std::cos(0.25 * step);
+  Prism lid{{{spike, 0.0}}, 1.0};
+  for (int k = 0; k <= 30; ++k) {
+    const double angle = gap + step * k;
+    lid.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  const OccluderPieces made = make_occluder_pieces(lid);
+  REQUIRE(made.pieces.size() == 1);
+  std::array<Section, max_sections> nested;
+  const int count = sections({made.pieces[0], sight_frame({}, rotation_of({}), Vec3(0, 0, 2))}, nested);
+  REQUIRE(count >= 1);
+  for (int i = 0; i < count; ++i) CHECK(nested[static_cast<std::size_t>(i)].outline.count <= Outline::max_rays);
+  // The points on a circle, one more than fit.
+  std::vector<SeenPoint> points;
+  for (int k = 0; k < Outline::max_rays + 1; ++k) {
+    const double angle = 2.0 * pi * k / (Outline::max_rays + 1);
+    points.push_back({{std::cos(angle), std::sin(angle), 1.0}, {}});
+  }
+  Outline out;
+  CHECK_FALSE(angular_hull(points, {0, 0, 1}, out));
+  CHECK(out.count == 0);
+  points.pop_back();
+  CHECK(angular_hull(points, {0, 0, 1}, out));
+  CHECK(out.count == Outline::max_rays);
 }
 
 TEST_CASE("sections: a long wall seen from its near end hides there early") {

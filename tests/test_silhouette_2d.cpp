@@ -161,6 +161,25 @@ TEST_CASE("faults that were found once") {
   for (int k = 0; k < 6; ++k) CHECK(holds(seen(world, view, any_order(world, random)), 2));
 }
 
+// The rule that leaves out less than 1.2e-10 in slopes is for slivers of things, not for whole things or whole views.
+TEST_CASE("what is tiny as a whole is seen, and so is anything in a view as narrow as that") {
+  const auto alone = [](const Object& object, const View& view) {
+    return seen({object}, view, {0}) == std::vector<ObjectId>{object.id};
+  };
+  Object far{.id = 3, .shape = Rectangle{{0.1, 0.1}}, .pose = {{9.9e8, 1e3, 0}, {}}};
+  CHECK(alone(far, View{}));
+  far.shape = Polygon{{{0, 0}, {1e-6, 0}, {0, 1e-6}}};
+  CHECK(alone(far, View{}));
+  View narrow;
+  narrow.fov = 1e-11;
+  CHECK(alone({.id = 4, .shape = Disc{1}, .pose = {{40, 0, 0}, {}}}, narrow));
+  CHECK(alone({.id = 5, .shape = Rectangle{{2, 2}}, .pose = {{40, 0, 0}, {}}}, narrow));
+  // Behind something it is hidden all the same.
+  const std::vector<Object> world{{.id = 1, .shape = Rectangle{{2, 2}}, .pose = {{20, 0, 0}, {}}},
+                                  {.id = 2, .shape = Rectangle{{1, 1}}, .pose = {{40, 0, 0}, {}}}};
+  CHECK(seen(world, narrow, {0, 1}) == std::vector<ObjectId>{1});
+}
+
 TEST_CASE("usable edges: all of a clean outline, none of a folded one, no spike") {
   const Outline2D box(Rectangle{{4, 2}});
   CHECK(box.clean());
