@@ -1,6 +1,7 @@
 // The exact reference: who is visible, by definition (core/culler.h), sharing no code with any method.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -42,7 +43,8 @@ class ExactRays {
   ExactRays(ExactRays&&) noexcept;
   ExactRays& operator=(ExactRays&&) noexcept;
 
-  ExactAnswer visible(const View& view) const;
+  /// `each_row` is called before each row of rays; it may throw to end the work.
+  ExactAnswer visible(const View& view, const std::function<void()>& each_row = {}) const;
 
   /// Judges one object along one direction in doubles, brute force over the world the constructor was
   /// given, and along directions a little beside it: whether the viewer really sees it there with positive

@@ -3,6 +3,7 @@
 // is judged in doubles ray by ray. The answer is a lower bound.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "gridcull/core/error.h"
@@ -15,6 +16,8 @@ namespace exact {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using EachRow = std::function<void()>;
 
 /// 0 .. 1 from a pixel's number: the same in every run, no pattern that a scene could line up with
 /// (the finalizer of MurmurHash3).
@@ -181,8 +184,10 @@ class Looker {
 };
 
 /// One ray a pixel over [-tx, tx] x [-ty, ty] at depth 1 along `axes.x`.
-void shoot_window(Looker& looker, const Rotation& axes, double tx, double ty, int columns, int rows) {
+void shoot_window(Looker& looker, const Rotation& axes, double tx, double ty, int columns, int rows,
+                  const EachRow& each_row) {
   for (int row = 0; row < rows; ++row) {
+    if (each_row) each_row();
     for (int column = 0; column < columns; ++column) {
       const auto number =
           static_cast<std::uint64_t>(row) * static_cast<std::uint64_t>(columns) + static_cast<std::uint64_t>(column);
@@ -192,13 +197,13 @@ void shoot_window(Looker& looker, const Rotation& axes, double tx, double ty, in
   }
 }
 
-void shoot_cube(Looker& looker, const Rotation& axes, int rays) {
-  shoot_window(looker, axes, 1.0, 1.0, rays, rays);
-  shoot_window(looker, {-axes.x, -axes.y, axes.z}, 1.0, 1.0, rays, rays);
-  shoot_window(looker, {axes.y, -axes.x, axes.z}, 1.0, 1.0, rays, rays);
-  shoot_window(looker, {-axes.y, axes.x, axes.z}, 1.0, 1.0, rays, rays);
-  shoot_window(looker, {axes.z, axes.y, -axes.x}, 1.0, 1.0, rays, rays);
-  shoot_window(looker, {-axes.z, axes.y, axes.x}, 1.0, 1.0, rays, rays);
+void shoot_cube(Looker& looker, const Rotation& axes, int rays, const EachRow& each_row) {
+  shoot_window(looker, axes, 1.0, 1.0, rays, rays, each_row);
+  shoot_window(looker, {-axes.x, -axes.y, axes.z}, 1.0, 1.0, rays, rays, each_row);
+  shoot_window(looker, {axes.y, -axes.x, axes.z}, 1.0, 1.0, rays, rays, each_row);
+  shoot_window(looker, {-axes.y, axes.x, axes.z}, 1.0, 1.0, rays, rays, each_row);
+  shoot_window(looker, {axes.z, axes.y, -axes.x}, 1.0, 1.0, rays, rays, each_row);
+  shoot_window(looker, {-axes.z, axes.y, axes.x}, 1.0, 1.0, rays, rays, each_row);
 }
 
 /// Directions `angle` (radians) off the ray, `count` of them around it.
@@ -242,15 +247,15 @@ ExactRays::~ExactRays() = default;
 ExactRays::ExactRays(ExactRays&&) noexcept = default;
 ExactRays& ExactRays::operator=(ExactRays&&) noexcept = default;
 
-ExactAnswer ExactRays::visible(const View& view) const {
+ExactAnswer ExactRays::visible(const View& view, const std::function<void()>& each_row) const {
   exact::Looker looker(detail_->solids, detail_->scene, view);
   const exact::ViewLimits& limits = looker.limits();
   if (limits.all_round()) {
-    exact::shoot_cube(looker, limits.axes(), detail_->rays);
+    exact::shoot_cube(looker, limits.axes(), detail_->rays, each_row);
   } else {
     const double columns = std::clamp(std::round(detail_->rays * view.frustum->aspect), 1.0, 65536.0);
     exact::shoot_window(looker, limits.axes(), limits.tangent_x(), limits.tangent_y(), static_cast<int>(columns),
-                        detail_->rays);
+                        detail_->rays, each_row);
   }
   looker.aim();
   return looker.answer();

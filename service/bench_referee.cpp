@@ -37,7 +37,8 @@ void BenchReferee::prepare(std::uint64_t frame, const World& world, std::span<co
   p.exact.resize(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     if (interrupted()) return;
-    p.exact[i] = p.rays ? p.rays->visible(p.views[i]) : exact_visible_2d(world.objects(), p.views[i]);
+    p.exact[i] =
+        p.rays ? p.rays->visible(p.views[i], &stop_if_interrupted) : exact_visible_2d(world.objects(), p.views[i]);
   });
   stop_if_interrupted();
   prepared_.emplace(frame, std::move(p));

@@ -18,10 +18,14 @@
 #include "gridcull/service/gnuplot.h"
 #include "gridcull/service/interrupt.h"
 #include "gridcull/service/progress.h"
+#include "gridcull/service/stability.h"
 #include "gridcull/service/text.h"
 
 namespace gridcull {
 namespace {
+
+/// 3D reference of the stability suite: its worlds are small and every frame is judged.
+constexpr int stability_rays = 128;
 
 struct BenchOptions {
   /// A minute or two on two cores. Three sizes of spheres for the chart of hidden objects, three numbers of viewers.
@@ -39,6 +43,7 @@ struct BenchOptions {
   // Signed, so that a number below 0 is seen as such.
   std::int64_t frames = 40, judged = 3;
   std::string out{};
+  bool stability = false;
 };
 
 void check_choice(BenchOptions& options) {
@@ -89,6 +94,16 @@ std::vector<Match> plan(const BenchOptions& options) {
   return matches;
 }
 
+/// A scene on which nothing ran, because it asks for too much memory, say, is bad input.
+void expect_somebody_ran(const BenchSceneResult& result) {
+  std::string why;
+  for (const BenchRow& row : result.rows) {
+    if (row.refused.empty()) return;
+    why = row.refused;
+  }
+  throw Error(ErrorCode::usage, result.label + ": no method ran: " + why);
+}
+
 std::vector<BenchSceneResult> run_all(const BenchOptions& options, const std::vector<Match>& matches) {
   std::uint64_t total = 0, done = 0;
   for (const Match& match : matches) {
@@ -101,6 +116,7 @@ std::vector<BenchSceneResult> run_all(const BenchOptions& options, const std::ve
       const BenchScene scene = open_bench_scene(match.scene);
       results.push_back(run_bench_scene(scene, match.contenders, options.settings, [&] { progress.update(++done); }));
     }
+    expect_somebody_ran(results.back());
     std::fputs(("\n" + bench_table(results.back())).c_str(), stdout);
     std::fflush(stdout);
   }
@@ -110,6 +126,9 @@ std::vector<BenchSceneResult> run_all(const BenchOptions& options, const std::ve
 int bench(BenchOptions options) {
   check_choice(options);
   check_settings(options);
+  if (options.stability) {
+    return run_stability_bench(options.choice.methods, {options.settings.repeats, stability_rays}, options.out);
+  }
   std::optional<BenchOutput> output;
   if (!options.out.empty()) output.emplace(options.out);
   const std::vector<Match> matches = plan(options);
@@ -127,12 +146,14 @@ int bench(BenchOptions options) {
 }
 
 void add_options(CLI::App& command, BenchOptions& o) {
-  command
-      .add_option("--scenes", o.scenes,
-                  "spheres:COUNT, discs:COUNT, town:BUILDINGS, maze:SIDE or city:BLOCKS:CARS, each with :viewers=V, "
-                  ":range=M, :cell=M, :seed=S (spheres: :hidden=N) behind; a folder, a scene file, or SCENE@FRAMES")
-      ->delimiter(',')
-      ->type_name("S,S...");
+  CLI::Option* const scenes =
+      command
+          .add_option(
+              "--scenes", o.scenes,
+              "spheres:COUNT, discs:COUNT, town:BUILDINGS, maze:SIDE or city:BLOCKS:CARS, each with :viewers=V, "
+              ":range=M, :cell=M, :seed=S (spheres: :hidden=N) behind; a folder, a scene file, or SCENE@FRAMES")
+          ->delimiter(',')
+          ->type_name("S,S...");
   command.add_option("--methods", o.choice.methods, "as listed by gridcull methods (default: all that take the scene)")
       ->delimiter(',')
       ->type_name("M,M...");
@@ -161,6 +182,11 @@ void add_options(CLI::App& command, BenchOptions& o) {
       ->type_name("S");
   command.add_option("--max-memory", o.choice.max_memory, "refuse grids larger than this (default 4 GiB)")
       ->type_name("BYTES");
+  CLI::Option* const stability = command.add_flag(
+      "--stability", o.stability,
+      "instead of scenes: small worlds that go to a limit (thin walls, far origins, fast movers ...), every "
+      "answer judged; a table a method");
+  stability->excludes(scenes);
   command.add_option("--out", o.out, "folder for bench.csv and the charts; without it only the tables")
       ->type_name("DIR");
 }

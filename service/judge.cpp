@@ -59,7 +59,8 @@ void Judge::judge(const Replay& replay) {
   std::vector<Judgement> judgements(views.size());
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
     if (interrupted()) return;
-    const ExactAnswer exact = rays ? rays->visible(views[i]) : exact_visible_2d(objects, views[i]);
+    const ExactAnswer exact =
+        rays ? rays->visible(views[i], &stop_if_interrupted) : exact_visible_2d(objects, views[i]);
     judgements[i] = judge_answer(exact, answers[i], views[i], rays ? &*rays : nullptr, replay.frame());
   });
   stop_if_interrupted();

@@ -11,6 +11,7 @@
 #include <tbb/global_control.h>
 
 #include "gridcull/core/error.h"
+#include "gridcull/grid/instruction_set.h"
 #include "gridcull/service/commands.h"
 #include "gridcull/service/interrupt.h"
 
@@ -38,6 +39,7 @@ int stopped() {
 int perform(const Action& action) {
   try {
     catch_interrupts();
+    (void)choose_instruction_set();  // a set that this machine lacks is refused whatever the command
     // More threads than cores are allowed; unless told so, TBB writes a warning of its own.
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, most_threads);
     const int status = action();

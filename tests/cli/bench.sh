@@ -75,4 +75,12 @@ is "status after Ctrl-C" "$?" 130
 is "left behind after Ctrl-C" "$(ls -A out)" ""
 grep -q '^gridcull: stopped' stderr.txt || fail "Ctrl-C: said: $(cat stderr.txt)"
 
+# What cannot run at all is bad input.
+refused "no method fits" "no method ran: .*1000 allowed" \
+  bench --scenes spheres:50 --frames 1 --methods voxel --max-memory 1000 --cells 1 --out out/none
+GRIDCULL_ISA=neon refused "a set of instructions that nobody has" "GRIDCULL_ISA: unknown set" \
+  bench --scenes discs:50 --frames 1 --methods voxel --out out/none
+refused "stability of what is no method" "expected one of" bench --stability --methods clairvoyance
+refused "stability and scenes" "excludes" bench --stability --scenes discs:50
+
 finish
