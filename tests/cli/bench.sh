@@ -76,11 +76,15 @@ is "left behind after Ctrl-C" "$(ls -A out)" ""
 grep -q '^gridcull: stopped' stderr.txt || fail "Ctrl-C: said: $(cat stderr.txt)"
 
 # What cannot run at all is bad input.
-refused "no method fits" "no method ran: .*1000 allowed" \
-  bench --scenes spheres:50 --frames 1 --methods voxel --max-memory 1000 --cells 1 --out out/none
+checks=$((checks + 1))
+"$program" bench --scenes spheres:50 --frames 1 --methods voxel --max-memory 1000 --cells 1 --out out/none \
+  >stdout.txt 2>stderr.txt
+is "status when no method fits" "$?" 2
+grep -q "no method ran: .*1000 allowed" stderr.txt || fail "no method fits: said $(cat stderr.txt)"
+is "left behind when no method fits" "$(ls -A out/none 2>/dev/null)" ""
 GRIDCULL_ISA=neon refused "a set of instructions that nobody has" "GRIDCULL_ISA: unknown set" \
   bench --scenes discs:50 --frames 1 --methods voxel --out out/none
-refused "stability of what is no method" "expected one of" bench --stability --methods clairvoyance
+refused "stability of what is no method" "found clairvoyance" bench --stability --methods clairvoyance
 refused "stability and scenes" "excludes" bench --stability --scenes discs:50
 
 finish
