@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,11 +27,29 @@ std::uint64_t static_world_hash(std::span<const Object> objects);
 /// Writes magic, container version, head, length, payload and checksum beside `path`, then renames. Throws Error(io).
 void write_baked(const std::string& path, const BakedHead& head, std::span<const std::byte> payload);
 
-/// The payload of a file baked for `expected`. Throws Error(io) when it cannot be read and Error(bad_scene) with one line
-/// when it is no baked file, cut short, altered, of a later version, of another method or of another world.
+/// The payload of a file baked for `expected`. Throws Error(io) when it cannot be read and Error(bad_scene) with one
+/// line when it is no baked file, cut short, altered, of a later version, of another method or of another world.
 std::vector<std::byte> read_baked(const std::string& path, const BakedHead& expected);
 
-/// Hears how a bake gets on.
+/// What a file says it is, without a look at the payload. Throws as read_baked() where it is no whole baked file.
+BakedHead read_baked_head(const std::string& path);
+
+/// A number that a method's bake takes on the command line, as `--NAME VALUE`.
+struct BakeSetting {
+  std::string_view name;
+  std::string_view help;
+  double standard = 0.0;           ///< where nobody says otherwise
+  double least = 0.0, most = 0.0;  ///< both allowed
+  bool whole = false;              ///< whole numbers only
+};
+
+/// Values of settings by name; those that are not there have their standard value.
+using BakeSettings = std::map<std::string, double, std::less<>>;
+
+/// The value of a setting. Throws Error(usage) when it is out of range.
+double bake_setting(const BakeSettings& values, const BakeSetting& setting);
+
+/// Hears how a bake gets on. Calls come from the thread that bakes.
 class BakeListener {
  public:
   virtual ~BakeListener() = default;

@@ -53,18 +53,25 @@ std::span<const MethodEntry> method_catalog() {
   return entries;
 }
 
-std::unique_ptr<Culler> make_method(std::string_view name, const MethodOptions& options) {
+const MethodEntry& find_method(std::string_view name, std::string_view option) {
   std::string known;
   for (const MethodEntry& entry : method_catalog()) {
+    if (entry.info.name == name) return entry;
     known += (known.empty() ? "" : ", ") + std::string(entry.info.name);
-    if (entry.info.name != name) continue;
-    if (options.dimension == 2 ? !entry.info.takes_2d : !entry.info.takes_3d) {
-      throw Error(ErrorCode::usage, "--method: " + std::string(name) + " does not take " +
-                                        std::to_string(options.dimension) + "D scenes");
-    }
-    return entry.make(options);
   }
-  throw Error(ErrorCode::usage, "--method: expected one of " + known + ", found " + std::string(name));
+  throw Error(ErrorCode::usage, std::string(option) + ": expected one of " + known + ", found " + std::string(name));
+}
+
+std::unique_ptr<Culler> make_method(std::string_view name, const MethodOptions& options) {
+  const MethodEntry& entry = find_method(name);
+  if (options.dimension == 2 ? !entry.info.takes_2d : !entry.info.takes_3d) {
+    throw Error(ErrorCode::usage,
+                "--method: " + std::string(name) + " does not take " + std::to_string(options.dimension) + "D scenes");
+  }
+  if (!options.baked.empty() && entry.baking.bake == nullptr) {
+    throw Error(ErrorCode::usage, "--baked: " + std::string(name) + " reads no baked file");
+  }
+  return entry.make(options);
 }
 
 std::string_view default_method() { return "silhouette"; }

@@ -33,6 +33,19 @@ std::vector<double> cells_of(const BenchScene& scene, const BenchChoice& choice)
   return cells;
 }
 
+/// The file that was baked for this method and world; "" where there is none.
+std::string baked_for(const MethodEntry& method, const BenchScene& scene, const BenchChoice& choice) {
+  if (method.baking.bake == nullptr || choice.baked.empty()) return {};
+  std::vector<Object> objects;
+  for (const SceneObject& object : scene.scene.objects) objects.push_back(object.object);
+  const std::uint64_t world = static_world_hash(objects);
+  for (const std::string& file : choice.baked) {
+    const BakedHead head = read_baked_head(file);
+    if (head.method == method.info.name && head.world == world) return file;
+  }
+  return {};
+}
+
 /// The settings of one method on one scene, threads apart.
 std::vector<Contender> settings_of(const MethodEntry& method, const BenchScene& scene, const BenchChoice& choice) {
   Contender one;
@@ -41,6 +54,7 @@ std::vector<Contender> settings_of(const MethodEntry& method, const BenchScene& 
   one.options.bounds = scene.choice.bounds;
   one.options.cell = scene.default_cell;
   one.options.max_memory = choice.max_memory;
+  one.options.baked = baked_for(method, scene, choice);
   std::vector<Contender> out;
   const bool edge = takes_edge(method) && scene.scene.dimension == 3, picture = takes_picture(method);
   if (edge || picture) {
@@ -82,18 +96,9 @@ std::string Contender::label() const {
   return text + ", " + counted(static_cast<unsigned long long>(options.threads), "thread");
 }
 
-const MethodEntry& find_method(const std::string& name) {
-  std::string known;
-  for (const MethodEntry& method : method_catalog()) {
-    if (method.info.name == name) return method;
-    known += (known.empty() ? "" : ", ") + std::string(method.info.name);
-  }
-  throw option_error("--methods", "some of " + known, name);
-}
-
 std::vector<Contender> choose_contenders(const BenchScene& scene, const BenchChoice& choice) {
   std::vector<const MethodEntry*> methods;
-  for (const std::string& name : choice.methods) methods.push_back(&find_method(name));
+  for (const std::string& name : choice.methods) methods.push_back(&find_method(name, "--methods"));
   if (methods.empty()) {
     for (const MethodEntry& method : method_catalog()) methods.push_back(&method);
   }

@@ -17,6 +17,7 @@ struct BenchChoice {
   std::vector<Resolution> resolutions{};  ///< R for methods that take R, WxH for those that take WxH
   std::vector<double> cells{};            ///< metres; 2, 1 and 1/2 of the scene's
   std::uint64_t max_memory = MethodOptions{}.max_memory;
+  std::vector<std::string> baked{};  ///< files; each is for the method and the world that it names
 };
 
 struct Contender {
@@ -29,9 +30,6 @@ struct Contender {
   /// "voxel, cell 2 m, 1 thread"
   std::string label() const;
 };
-
-/// Throws Error(usage) for a method that is not there.
-const MethodEntry& find_method(const std::string& name);
 
 /// All contenders on a scene, in the order of the catalog or of the choice. Methods that do not take the scene's
 /// dimension are left out.

@@ -47,7 +47,7 @@ struct BenchOptions {
 };
 
 void check_choice(BenchOptions& options) {
-  for (const std::string& method : options.choice.methods) (void)find_method(method);
+  for (const std::string& method : options.choice.methods) (void)find_method(method, "--methods");
   for (const int threads : options.choice.threads) {
     if (threads < 1 || threads > 256) throw option_error("--threads", "1 .. 256", std::to_string(threads));
   }
@@ -80,6 +80,17 @@ struct Match {
   std::string scene;
   std::vector<Contender> contenders;
 };
+
+/// A baked file for none of those who run is a mistake.
+void check_baked(const BenchOptions& options, const std::vector<Match>& matches) {
+  for (const std::string& file : options.choice.baked) {
+    bool used = false;
+    for (const Match& match : matches) {
+      for (const Contender& c : match.contenders) used = used || c.options.baked == file;
+    }
+    if (!used) throw Error(ErrorCode::usage, "--baked: " + file + " is for none of the scenes and methods");
+  }
+}
 
 /// Opens every scene once, so that a bad one is refused before the work.
 std::vector<Match> plan(const BenchOptions& options) {
@@ -132,6 +143,7 @@ int bench(BenchOptions options) {
   std::optional<BenchOutput> output;
   if (!options.out.empty()) output.emplace(options.out);
   const std::vector<Match> matches = plan(options);
+  check_baked(options, matches);
   std::fputs(bench_head(options.settings).c_str(), stdout);
   const std::vector<BenchSceneResult> results = run_all(options, matches);
   if (!output) return 0;
@@ -187,6 +199,9 @@ void add_options(CLI::App& command, BenchOptions& o) {
       "instead of scenes: small worlds that go to a limit (thin walls, far origins, fast movers ...), every "
       "answer judged; a table a method");
   stability->excludes(scenes);
+  command.add_option("--baked", o.choice.baked, "files that gridcull bake wrote, each for its own method and scene")
+      ->delimiter(',')
+      ->type_name("FILE,...");
   command.add_option("--out", o.out, "folder for bench.csv and the charts; without it only the tables")
       ->type_name("DIR");
 }

@@ -19,6 +19,7 @@ void add_info_command(CLI::App& app, Action& action);
 void add_make_command(CLI::App& app, Action& action);
 void add_import_command(CLI::App& app, Action& action);
 void add_methods_command(CLI::App& app, Action& action);
+void add_bake_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
 
 }  // namespace gridcull

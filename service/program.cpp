@@ -31,8 +31,8 @@ int refuse(std::string message) {
   return bad_input;
 }
 
-int stopped() {
-  std::fprintf(stderr, "gridcull: stopped; unfinished outputs were not written\n");
+int stopped(const Stopped& stop = {}) {
+  std::fprintf(stderr, "gridcull: stopped; %s\n", stop.note.c_str());
   return interrupt_status();
 }
 
@@ -47,8 +47,8 @@ int perform(const Action& action) {
       return refuse(std::string("standard output: cannot be written: ") + std::strerror(errno));
     }
     return status;
-  } catch (const Stopped&) {
-    return stopped();
+  } catch (const Stopped& stop) {
+    return stopped(stop);
   } catch (const std::bad_alloc&) {
     return refuse("out of memory");
   } catch (const std::exception& e) {
@@ -71,6 +71,7 @@ int run_program(int argc, const char* const* argv) {
   add_make_command(app, action);
   add_import_command(app, action);
   add_methods_command(app, action);
+  add_bake_command(app, action);
   add_bench_command(app, action);
   try {
     app.parse(argc, argv);
@@ -80,7 +81,7 @@ int run_program(int argc, const char* const* argv) {
     return refuse(e.what());
   }
   if (!action)
-    return refuse("a command is missing: run, check, info, make, import, methods or bench (see gridcull --help)");
+    return refuse("a command is missing: run, check, info, make, import, methods, bake or bench (see gridcull --help)");
   return perform(action);
 }
 

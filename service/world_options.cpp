@@ -61,6 +61,11 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
           "silhouette in 3D: R pixels along a cube face's edge, 8 .. 8192, finer is tighter and slower (default "
           "512, 256 all round with a range); depth-rays: WxH rays, each 1 .. 8192 (default 128x72)")
       ->type_name("R|WxH");
+  command
+      .add_option("--baked", options.baked,
+                  "what gridcull bake wrote for this method and scene; without it the method "
+                  "bakes a little at the first frame")
+      ->type_name("FILE");
   command.add_flag("--pull", options.pull,
                    "the method asks for the positions that it needs, instead of being told all");
 }
@@ -76,7 +81,7 @@ PreparedWorld prepare_world(const WorldOptions& options, bool always_survey) {
   return {std::move(scene), std::move(survey), std::move(choice), lattice};
 }
 
-std::unique_ptr<Culler> make_culler(const WorldOptions& options, const PreparedWorld& world) {
+MethodOptions method_options(const WorldOptions& options, const PreparedWorld& world) {
   MethodOptions method;
   method.dimension = world.scene.dimension;
   method.bounds = world.choice.bounds;
@@ -84,6 +89,12 @@ std::unique_ptr<Culler> make_culler(const WorldOptions& options, const PreparedW
   method.tbv = options.tbv;
   method.threads = options.threads;
   method.max_memory = options.max_memory;
+  return method;
+}
+
+std::unique_ptr<Culler> make_culler(const WorldOptions& options, const PreparedWorld& world) {
+  MethodOptions method = method_options(options, world);
+  method.baked = options.baked;
   if (!options.resolution.empty()) {
     const Resolution resolution = parse_resolution(options.resolution);
     for (const MethodEntry& entry : method_catalog()) {

@@ -32,11 +32,12 @@ struct WorldOptions {
   std::string tbv = MethodOptions{}.tbv;
   bool pull = false;
   std::string resolution{};  ///< R or WxH; "": the method's default
+  std::string baked{};       ///< file that gridcull bake wrote; "": none
 };
 
 /// SCENE, --frames, --cell and --max-memory.
 void add_scene_options(CLI::App& command, WorldOptions& options);
-/// --method, --threads, --tbv, --pull and --resolution.
+/// --method, --threads, --tbv, --pull, --resolution and --baked.
 void add_method_options(CLI::App& command, WorldOptions& options);
 
 /// A scene that was read, and the grid for it.
@@ -50,6 +51,9 @@ struct PreparedWorld {
 /// Reads and chooses. Throws what readers throw and Error(limit) when the grid needs more than
 /// max_memory, whatever the method will be.
 PreparedWorld prepare_world(const WorldOptions& options, bool always_survey = false);
+
+/// What the method is told, but for its resolution and a baked file.
+MethodOptions method_options(const WorldOptions& options, const PreparedWorld& world);
 
 /// The method on that grid.
 std::unique_ptr<Culler> make_culler(const WorldOptions& options, const PreparedWorld& world);

@@ -8,7 +8,7 @@ json() { sed -n "s/.*\"$1\": *\"\{0,1\}\([^,\"}]*\).*/\1/p" "$2" | head -n 1; }
 good "help" --help
 good "version" --version
 is "version" "$(cat stdout.txt)" "gridcull 0.1.0"
-for command in run check info make import "import sumo" "import petrack" methods; do
+for command in run check info make import "import sumo" "import petrack" methods bake; do
   # shellcheck disable=SC2086
   good "$command --help" $command --help
   grep -q "^  gridcull ${command%% *}" stdout.txt || fail "$command --help holds no example"

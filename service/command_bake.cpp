@@ -1,0 +1,220 @@
+// `gridcull bake`: what a method works out in advance, into a file. Ctrl-C leaves FILE.part, from which the same
+// command goes on.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include "gridcull/core/error.h"
+#include "gridcull/methods/bytes.h"
+#include "gridcull/service/commands.h"
+#include "gridcull/service/interrupt.h"
+#include "gridcull/service/progress.h"
+#include "gridcull/service/table.h"
+#include "gridcull/service/text.h"
+#include "gridcull/service/world_options.h"
+
+namespace gridcull {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BakeOptions {
+  WorldOptions world{};
+  std::string more{};  ///< what `bake static SCENE` has and `bake SCENE` has not
+  std::string out{};
+  std::map<std::string, std::optional<double>, std::less<>> settings{};  ///< of all methods
+};
+
+std::string bakers() {
+  std::string text;
+  for (const MethodEntry& entry : method_catalog()) {
+    if (entry.baking.bake != nullptr) text += (text.empty() ? "" : ", ") + std::string(entry.info.name);
+  }
+  return text.empty() ? "none" : text;
+}
+
+const MethodEntry& find_baker(const WorldOptions& options) {
+  if (options.method.empty()) throw Error(ErrorCode::usage, "--method: expected one that bakes: " + bakers());
+  const MethodEntry& method = find_method(options.method);
+  if (method.baking.bake != nullptr) return method;
+  throw Error(ErrorCode::usage, "--method: " + options.method + " does not bake; those that do: " + bakers());
+}
+
+/// Only those of the method may be given.
+BakeSettings choose_settings(const BakeOptions& options, const MethodEntry& method) {
+  BakeSettings chosen;
+  for (const auto& [name, value] : options.settings) {
+    if (!value) continue;
+    bool known = false;
+    for (const BakeSetting& setting : method.baking.settings) known = known || setting.name == name;
+    if (!known) throw Error(ErrorCode::usage, "--" + name + ": no option of " + std::string(method.info.name));
+    chosen[name] = *value;
+  }
+  for (const BakeSetting& setting : method.baking.settings) (void)bake_setting(chosen, setting);
+  return chosen;
+}
+
+/// Everything besides the world that the result depends on.
+std::string settings_text(const MethodEntry& method, const MethodOptions& options) {
+  std::string text = "bounds";
+  for (const Vec3& corner : {options.bounds.min, options.bounds.max}) {
+    for (int k = 0; k < 3; ++k) text += " " + number_text(corner[k], 17);
+  }
+  for (const BakeSetting& setting : method.baking.settings) {
+    text += ", " + std::string(setting.name) + " " + number_text(bake_setting(options.bake, setting), 17);
+  }
+  return text;
+}
+
+void check_folder(const std::string& out) {
+  const fs::path folder = fs::path(out).parent_path();
+  const std::string name = folder.empty() ? "." : folder.string();
+  if (out == "-" || fs::is_directory(out)) throw option_error("--out", "a file", out);
+  if (::access(name.c_str(), W_OK) != 0 || !fs::is_directory(name)) {
+    throw Error(ErrorCode::io, out + ": cannot be written: no folder, or one that is protected");
+  }
+}
+
+/// FILE.part: the state of an unfinished bake and what it is for.
+class Unfinished {
+ public:
+  Unfinished(std::string path, BakedHead head, std::string settings)
+      : path_(std::move(path)), head_(std::move(head)), settings_(std::move(settings)) {
+    head_.method += " (unfinished)";
+  }
+
+  const std::string& path() const { return path_; }
+  /// The state to go on from; empty where there is none. Throws where it is one of something else.
+  std::vector<std::byte> read() const {
+    if (!fs::exists(path_)) return {};
+    const std::vector<std::byte> payload = read_baked(path_, head_);
+    ByteReader reader(payload, path_);
+    if (reader.text() != settings_) {
+      reader.refuse("begun with other options; give the same ones, or remove it to begin anew");
+    }
+    const auto state = reader.block();
+    reader.finish();
+    return {state.begin(), state.end()};
+  }
+  void write(std::span<const std::byte> state) const {
+    ByteWriter out;
+    out.text(settings_);
+    out.block(state);
+    write_baked(path_, head_, out.span());
+  }
+  void remove() const {
+    std::error_code none;
+    fs::remove(path_, none);
+  }
+
+ private:
+  std::string path_;
+  BakedHead head_;
+  std::string settings_;
+};
+
+class Listener final : public BakeListener {
+ public:
+  explicit Listener(const Unfinished& unfinished) : unfinished_(unfinished) {}
+
+  bool progress(double share) override {
+    bar_.update(static_cast<std::uint64_t>(share * whole));
+    return !interrupted();
+  }
+  void checkpoint(std::span<const std::byte> state) override { unfinished_.write(state); }
+
+ private:
+  static constexpr std::uint64_t whole = 1000;
+  const Unfinished& unfinished_;
+  Progress bar_{"thousandths", whole};
+};
+
+int bake(const BakeOptions& options) {
+  if (options.world.scene == "static") {
+    throw Error(ErrorCode::usage, "bake static: static volumes cannot be baked yet; expected bake --method M SCENE");
+  }
+  if (!options.more.empty()) throw Error(ErrorCode::usage, "bake: expected one scene, found also " + options.more);
+  const MethodEntry& method = find_baker(options.world);
+  const BakeSettings settings = choose_settings(options, method);
+  if (options.out.empty()) throw Error(ErrorCode::usage, "--out is required");
+  check_folder(options.out);
+  const PreparedWorld world = prepare_world(options.world);
+  MethodOptions chosen = method_options(options.world, world);
+  chosen.bake = settings;
+  (void)make_method(options.world.method, chosen);  // refuses the wrong dimension
+  std::vector<Object> objects;
+  for (const SceneObject& object : world.scene.objects) objects.push_back(object.object);
+  const BakedHead head{std::string(method.info.name), method.baking.version, static_world_hash(objects)};
+  const Unfinished unfinished(options.out + ".part", head, settings_text(method, chosen));
+  const std::vector<std::byte> state = unfinished.read();
+
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<std::vector<std::byte>> payload;
+  {
+    Listener listener(unfinished);
+    payload = method.baking.bake(objects, chosen, state, listener);
+  }
+  if (!payload) throw Stopped{unfinished.path() + " holds the work so far, and the same command goes on from it"};
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  write_baked(options.out, head, *payload);
+  unfinished.remove();
+  std::string text = row("scene", options.world.scene) + row("method", options.world.method) +
+                     row("file", options.out + ", " + bytes_text(static_cast<double>(fs::file_size(options.out)))) +
+                     row("time", number_text(seconds, 3) + " s, " +
+                                     counted(static_cast<unsigned long long>(options.world.threads), "thread") +
+                                     (state.empty() ? "" : ", gone on from " + unfinished.path()));
+  std::fputs((text + method.baking.describe(*payload)).c_str(), stdout);
+  return 0;
+}
+
+/// One option a name, whichever methods have it.
+void add_settings(CLI::App& command, BakeOptions& options) {
+  std::map<std::string, std::string> help;
+  for (const MethodEntry& entry : method_catalog()) {
+    for (const BakeSetting& setting : entry.baking.settings) {
+      std::string& text = help[std::string(setting.name)];
+      text += (text.empty() ? "" : "; ") + std::string(entry.info.name) + ": " + std::string(setting.help) +
+              " (default " + number_text(setting.standard) + ")";
+    }
+  }
+  for (const auto& [name, text] : help) {
+    command.add_option("--" + name, options.settings[name], text)->type_name("X");
+  }
+}
+
+}  // namespace
+
+void add_bake_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<BakeOptions>();
+  options->world.method.clear();
+  options->world.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 256u));
+  CLI::App& command = *app.add_subcommand("bake", "Work in advance for a method, into a file that --baked reads");
+  add_scene_options(command, options->world);
+  command.add_option("MORE", options->more)->group("");
+  command.add_option("--method", options->world.method, "one that bakes: " + bakers())->type_name("NAME");
+  command
+      .add_option("--out", options->out, "file to write; Ctrl-C leaves FILE.part, from which the same command goes on")
+      ->type_name("FILE");
+  command
+      .add_option("--threads", options->world.threads, "1 .. 256 (default: all cores); the file does not depend on it")
+      ->type_name("N");
+  add_settings(command, *options);
+  command.footer(
+      "Example: a town, baked and used\n"
+      "  gridcull make town --out town --viewers 10 --range 100\n"
+      "  gridcull bake --method five-d-tree town/scene.json --out town.baked\n"
+      "  gridcull run town/scene.json --frames town/frames.jsonl --method five-d-tree --baked town.baked");
+  command.callback([options, &action] { action = [options] { return bake(*options); }; });
+}
+
+}  // namespace gridcull
