@@ -5,6 +5,8 @@
 #include "gridcull/core/error.h"
 #include "gridcull/grid/engine.h"
 #include "gridcull/methods/depth_rays.h"
+#include "gridcull/methods/five_d_bake.h"
+#include "gridcull/methods/five_d_tree.h"
 #include "gridcull/methods/frustum.h"
 #include "gridcull/methods/pairwise_rays.h"
 
@@ -39,6 +41,21 @@ std::unique_ptr<Culler> make_depth(const MethodOptions& o) {
   return make_depth_rays(options);
 }
 
+std::unique_ptr<Culler> make_five_d(const MethodOptions& o) {
+  return make_five_d_tree({o.dimension, o.bounds, o.baked, o.view_box, o.threads});
+}
+
+std::optional<std::vector<std::byte>> bake_five_d_tree(std::span<const Object> objects, const MethodOptions& o,
+                                                       std::span<const std::byte> resume, BakeListener& listener) {
+  FiveDOptions options = five_d_options(o.bake);
+  options.threads = o.threads;
+  const auto baked = bake_five_d(objects, o.dimension, o.bounds, options, resume, &listener);
+  if (!baked) return std::nullopt;
+  return five_d_payload(*baked);
+}
+
+Baking five_d_baking() { return {five_d_version, five_d_settings(), &bake_five_d_tree, &describe_five_d}; }
+
 }  // namespace
 
 std::span<const MethodEntry> method_catalog() {
@@ -49,7 +66,8 @@ std::span<const MethodEntry> method_catalog() {
                   "--resolution R (3D), --cell C, --tbv off|solid, --threads N, --max-memory BYTES", &make_silhouette},
       MethodEntry{frustum_culler_info(), "", &make_frustum},
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
-      MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72)", &make_depth}};
+      MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72)", &make_depth},
+      MethodEntry{five_d_tree_info(), "--baked FILE, --view-box METRES", &make_five_d, five_d_baking()}};
   return entries;
 }
 

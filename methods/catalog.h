@@ -28,6 +28,7 @@ struct MethodOptions {
   int rays_width = 0, rays_height = 0;  ///< rays of a picture, 1 .. 8192 each; 0: the method's default
   std::string baked{};                  ///< file that the method reads instead of baking; "": none
   BakeSettings bake{};                  ///< for baking
+  double view_box = 0.0;                ///< five-d-tree: edge of the box about the viewpoint, metres, >= 0
 };
 
 /// How a method works in advance; `bake` is nullptr for those that do not.

@@ -66,6 +66,10 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
                   "what gridcull bake wrote for this method and scene; without it the method "
                   "bakes a little at the first frame")
       ->type_name("FILE");
+  command
+      .add_option("--view-box", options.view_box,
+                  "five-d-tree: edge of the box about a viewpoint that its queries take (default 0)")
+      ->type_name("METRES");
   command.add_flag("--pull", options.pull,
                    "the method asks for the positions that it needs, instead of being told all");
 }
@@ -95,6 +99,7 @@ MethodOptions method_options(const WorldOptions& options, const PreparedWorld& w
 std::unique_ptr<Culler> make_culler(const WorldOptions& options, const PreparedWorld& world) {
   MethodOptions method = method_options(options, world);
   method.baked = options.baked;
+  method.view_box = options.view_box;
   if (!options.resolution.empty()) {
     const Resolution resolution = parse_resolution(options.resolution);
     for (const MethodEntry& entry : method_catalog()) {

@@ -33,11 +33,12 @@ struct WorldOptions {
   bool pull = false;
   std::string resolution{};  ///< R or WxH; "": the method's default
   std::string baked{};       ///< file that gridcull bake wrote; "": none
+  double view_box = MethodOptions{}.view_box;
 };
 
 /// SCENE, --frames, --cell and --max-memory.
 void add_scene_options(CLI::App& command, WorldOptions& options);
-/// --method, --threads, --tbv, --pull, --resolution and --baked.
+/// --method, --threads, --tbv, --pull, --resolution, --baked and --view-box.
 void add_method_options(CLI::App& command, WorldOptions& options);
 
 /// A scene that was read, and the grid for it.
