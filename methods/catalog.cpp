@@ -7,6 +7,7 @@
 #include "gridcull/methods/depth_rays.h"
 #include "gridcull/methods/five_d_bake.h"
 #include "gridcull/methods/five_d_tree.h"
+#include "gridcull/methods/extended_projections.h"
 #include "gridcull/methods/frustum.h"
 #include "gridcull/methods/pairwise_rays.h"
 
@@ -56,6 +57,11 @@ std::optional<std::vector<std::byte>> bake_five_d_tree(std::span<const Object> o
 
 Baking five_d_baking() { return {five_d_version, five_d_settings(), &bake_five_d_tree, &describe_five_d}; }
 
+std::unique_ptr<Culler> make_extended(const MethodOptions& o) {
+  return make_extended_projections(
+      {.bounds = o.bounds, .cell = o.cell, .resolution = o.resolution, .threads = o.threads});
+}
+
 }  // namespace
 
 std::span<const MethodEntry> method_catalog() {
@@ -67,7 +73,8 @@ std::span<const MethodEntry> method_catalog() {
       MethodEntry{frustum_culler_info(), "", &make_frustum},
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
       MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72)", &make_depth},
-      MethodEntry{five_d_tree_info(), "--baked FILE, --view-box METRES", &make_five_d, five_d_baking()}};
+      MethodEntry{five_d_tree_info(), "--baked FILE, --view-box METRES", &make_five_d, five_d_baking()},
+      MethodEntry{extended_projections_info(), "--resolution R, --cell C, --threads N", &make_extended}};
   return entries;
 }
 

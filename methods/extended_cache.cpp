@@ -1,0 +1,90 @@
+#include "gridcull/methods/extended_cache.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+
+namespace gridcull::extended {
+
+CellCache::CellCache(const Bounds& bounds, double edge, const CellSettings& settings, std::uint64_t max_bytes,
+                     int threads)
+    : edge_(edge),
+      settings_(settings),
+      max_bytes_(max_bytes),
+      arena_(std::min(threads, tbb::info::default_concurrency())),
+      lookers_(static_cast<std::size_t>(arena_.max_concurrency())) {
+  if (!bounds.empty()) origin_ = bounds.min;
+}
+
+void CellCache::reset(const StaticScene& scene) {
+  cells_.clear();
+  for (auto& looker : lookers_) looker = std::make_unique<CellLooker>(scene, settings_);
+}
+
+// The box is grown by the roundings of its own corners and of the viewpoint's index.
+ViewCell CellCache::cell_of(const CellKey& key) const {
+  ViewCell cell;
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<double>(key.at[static_cast<std::size_t>(k)]);
+    const double low = origin_[k] + i * edge_, high = origin_[k] + (i + 1.0) * edge_;
+    cell.centre[k] = 0.5 * (low + high);
+    cell.half[k] = 0.5 * edge_ * (1.0 + 1e-12) + 2e-15 * (std::fabs(low) + std::fabs(high) + std::fabs(origin_[k]));
+  }
+  return cell;
+}
+
+std::optional<CellKey> CellCache::key_of(const Vec3& point) const {
+  CellKey key;
+  for (int k = 0; k < 3; ++k) {
+    const double i = std::floor((point[k] - origin_[k]) / edge_);
+    if (!(std::fabs(i) < 1e12)) return std::nullopt;
+    key.at[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(i);
+  }
+  if (!holds(cell_of(key), point)) return std::nullopt;
+  return key;
+}
+
+void CellCache::need(std::vector<CellKey>& keys) {
+  ++needs_;
+  missing_.clear();
+  for (const CellKey& key : keys) {
+    const auto [at, fresh] = cells_.try_emplace(key);
+    at->second.used = needs_;
+    if (!fresh) continue;
+    at->second.view = std::make_unique<CellView>();
+    missing_.emplace_back(&at->first, at->second.view.get());
+  }
+  const auto look = [this](std::size_t i, CellLooker& looker) {
+    const auto [key, view] = missing_[i];
+    looker.look(cell_of(*key), key->without, nullptr, *view);
+  };
+  if (missing_.size() < 2 || lookers_.size() == 1) {
+    for (std::size_t i = 0; i < missing_.size(); ++i) look(i, *lookers_[0]);
+    return;
+  }
+  arena_.execute([&] {
+    tbb::parallel_for(std::size_t{0}, missing_.size(), [&](std::size_t i) {
+      look(i, *lookers_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
+    });
+  });
+}
+
+void CellCache::trim() {
+  const auto bytes_of = [this](const Entry& entry) {
+    const auto pixels =
+        static_cast<std::uint64_t>(settings_.resolution) * static_cast<std::uint64_t>(settings_.resolution);
+    return entry.view->outlooks.planes.size() * pixels * 11 + 4 * entry.view->visible.size();  // maps: 8 * 4/3 bytes
+  };
+  std::uint64_t bytes = 0;
+  for (const auto& [key, entry] : cells_) bytes += bytes_of(entry);
+  while (bytes > max_bytes_ && cells_.size() > 1) {
+    const auto oldest = std::min_element(cells_.begin(), cells_.end(),
+                                         [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+    bytes -= bytes_of(oldest->second);
+    cells_.erase(oldest);
+  }
+}
+
+}  // namespace gridcull::extended

@@ -1,0 +1,42 @@
+// The static world as a bake sees it: occluders, and occludees in a hierarchy of boxes (paper section 2.4).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gridcull/methods/extended_choice.h"
+#include "gridcull/methods/extended_pieces.h"
+
+namespace gridcull::extended {
+
+/// Boxes halved at the middle of their longest side.
+class BoxTree {
+ public:
+  struct Node {
+    Bounds box{};
+    std::uint32_t first = 0, count = 0;  ///< items; all of the subtree's
+    std::uint32_t left = 0;              ///< children are left and left + 1; 0: a leaf
+  };
+  void build(std::span<const Bounds> boxes);
+  const std::vector<Node>& nodes() const { return nodes_; }
+  /// Places in the boxes given to build().
+  std::span<const std::uint32_t> items(const Node& node) const { return {items_.data() + node.first, node.count}; }
+
+ private:
+  void split(std::uint32_t node, std::span<const Bounds> boxes);
+  std::vector<Node> nodes_{};
+  std::vector<std::uint32_t> items_{};
+};
+
+struct StaticScene {
+  std::vector<Occluder> occluders{};  ///< by ascending id
+  std::vector<Occludee> occludees{};  ///< by ascending id; occluders too
+  BoxTree tree{};                     ///< of the occludees
+  ChoiceTree worth{};                 ///< of the occluders
+};
+
+/// From the static ones among `objects`, in any order. `least_angle`: steradians; smaller occluders are not worth it.
+StaticScene make_static_scene(std::span<const Object* const> objects, double least_angle);
+
+}  // namespace gridcull::extended
