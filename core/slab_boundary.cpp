@@ -49,7 +49,9 @@ Planes grown_planes(const Slabs& slabs, double grown) {
   for (std::size_t j = 0; j < slab_directions.size(); ++j) {
     if (!slabs.has(j)) continue;
     const SlabDirection& n = slab_directions[j];
-    const double more = n.length * grown * (1.0 + 0x1p-39);
+    // As if a cube of half edge `grown` were added, and a little more along edges and corners: a box keeps its eight.
+    const int entries = n.x * n.x + n.y * n.y + n.z * n.z;
+    const double more = entries * grown * (entries == 1 ? 1.0 + 0x1p-39 : 1.0 + 0x1p-8);
     planes.at[planes.count++] = {n.x, n.y, n.z, slabs.high[j] + more, n.length};
     planes.at[planes.count++] = {-n.x, -n.y, -n.z, -slabs.low[j] + more, n.length};
   }

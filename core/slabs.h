@@ -47,9 +47,9 @@ Slabs slabs_of(std::span<const Vec3> points, BoundKind kind, int dimension);
 /// Of a ball or disc.
 Slabs slabs_of_ball(const Vec3& centre, double radius, BoundKind kind, int dimension);
 
-/// Vertices and faces of the slabs when every plane is moved out by `grown` metres (more than 2^-44 of `size`). The
-/// convex hull of the vertices as stored contains every point within grown - 2^-44 size of a point that the slabs were
-/// made of. `out` is overwritten.
+/// Vertices and faces of the slabs when every plane is moved out by `grown` metres or up to 1.75 times that (more than
+/// 2^-44 of `size`). The convex hull of the vertices as stored contains every point within grown - 2^-44 size of a
+/// point that the slabs were made of. `out` is overwritten.
 void slab_boundary(const Slabs& slabs, double grown, ConvexBoundary& out);
 
 /// The first points found farthest along each of slab_directions, and against it. Not empty.

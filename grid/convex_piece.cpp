@@ -262,6 +262,27 @@ ConvexPiece hull_piece(std::span<const Vec3> points, Rounding rounding) {
   return piece;
 }
 
+// Faces keep the directions that they were given: a face may be as small as a rounding error, and its corners then do
+// not tell where it looks.
+ConvexPiece boundary_piece(const ConvexBoundary& boundary) {
+  ConvexPiece piece;
+  if (boundary.vertices.size() > ConvexPiece::max_vertices || boundary.faces.size() > ConvexPiece::max_faces ||
+      boundary.faces.empty()) {
+    return piece;
+  }
+  piece.vertices = boundary.vertices;
+  for (const ConvexBoundary::Face& face : boundary.faces) {
+    Loop loop;
+    for (std::uint32_t i = 0; i < face.count; ++i) {
+      loop.push_back(static_cast<std::uint8_t>(boundary.loops[face.first + i]));
+    }
+    add_face(piece, loop);
+    piece.faces.back().normal = face.normal;
+  }
+  finish(piece, Rounding::outward);
+  return piece;
+}
+
 ConvexPiece flat_piece(std::span<const Vec3> polygon) {
   ConvexPiece piece;
   piece.kind = ConvexPiece::Kind::flat;

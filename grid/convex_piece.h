@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "gridcull/core/vec.h"
+#include "gridcull/core/convex_boundary.h"
 
 namespace gridcull {
 
@@ -68,6 +68,9 @@ ConvexPiece prism_piece(std::span<const Vec2> outline, double low, double high, 
 /// Hull of the points. Inward with too many vertices or faces: the hull of some of them. An empty piece (no
 /// vertices) where there is no hull to speak of (flat), or, outward, where it has too many vertices.
 ConvexPiece hull_piece(std::span<const Vec3> points, Rounding rounding);
+
+/// A bounding volume's surface, outward. Empty where it has too many vertices or faces, or is too flat.
+ConvexPiece boundary_piece(const ConvexBoundary& boundary);
 
 /// Flat convex polygon, inward only: vertices in order about the normal, at most 32. Empty when degenerate.
 ConvexPiece flat_piece(std::span<const Vec3> polygon);

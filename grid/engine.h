@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
+#include "gridcull/core/bound_kind.h"
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/culler.h"
 #include "gridcull/core/drawing.h"
@@ -32,6 +34,9 @@ struct GridOptions {
   std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes for the matrices
   Hiding hiding = Hiding::silhouette;
   int resolution = 0;  ///< `silhouette` in 3D: pixels along the mask's longer side, 8 .. 8192; 0: chosen per viewer
+  /// `silhouette` in 3D: the volume that objects are tested with, in their local axes. None, the default: a ball as
+  /// itself; a box as itself; a prism or a hull of few corners as its convex hull; anything else as its box.
+  std::optional<BoundKind> bound{};
 };
 
 const MethodInfo& grid_engine_info(Hiding hiding);

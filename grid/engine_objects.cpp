@@ -23,7 +23,7 @@ std::unique_ptr<ViewAnswerer> make_answerer(const GridOptions& o) {
 }  // namespace
 
 GridEngine::State::State(const GridOptions& o)
-    : options(o), world(make_lattice(o), o.hiding == Hiding::silhouette), terms(o.cell) {
+    : options(o), world(make_lattice(o), o.hiding == Hiding::silhouette, o.bound), terms(o.cell) {
   for (int i = 0; i < o.threads; ++i) tasks.push_back(make_answerer(o));
 }
 

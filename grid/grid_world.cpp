@@ -19,10 +19,11 @@ double node_side(const Lattice& lattice) { return (lattice.dimension() == 2 ? 16
 
 }  // namespace
 
-GridWorld::GridWorld(const Lattice& cells, bool with_silhouettes)
+GridWorld::GridWorld(const Lattice& cells, bool with_silhouettes, std::optional<BoundKind> bound)
     : lattice(cells),
-      silhouettes(with_silhouettes ? std::make_unique<SilhouetteWorld>(cells.dimension(), cells.box(), node_side(cells))
-                                   : nullptr),
+      silhouettes(with_silhouettes
+                      ? std::make_unique<SilhouetteWorld>(cells.dimension(), cells.box(), node_side(cells), bound)
+                      : nullptr),
       voxels(with_silhouettes ? one_cell(cells) : cells),
       matrix(voxels),
       tbv(voxels),

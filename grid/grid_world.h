@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "gridcull/core/culler.h"
@@ -19,7 +20,8 @@ namespace gridcull {
 
 struct GridWorld {
   /// `silhouettes`: objects go into the loose index, the matrices stay as small as can be.
-  GridWorld(const Lattice& cells, bool with_silhouettes);
+  /// `bound`: what those test 3D objects with.
+  GridWorld(const Lattice& cells, bool with_silhouettes, std::optional<BoundKind> bound = {});
 
   Lattice lattice;
   std::unique_ptr<SilhouetteWorld> silhouettes;  // method `silhouette`; then I, O and T stay empty

@@ -229,13 +229,21 @@ SightFrame Silhouette3D::sight(Slot slot) const {
 
 bool Silhouette3D::open_whole(Slot slot, const LooseBall& ball, Sliced& object) {
   const SilhouetteWorld::Solid* solid = shapes_->solid(slot);
-  if (solid != nullptr) return open_solid(slot, *solid, object);
-  const Vec3 centre = ball.centre - volume_->apex();
-  if (!mask_.open_ball(centre, ball.radius)) return false;
-  const std::array<double, 2> entrance = ball_entrance(glm::length(centre), ball.radius);
+  if (solid != nullptr && solid->ball.radius == 0.0) return open_solid(slot, *solid, object);
+  const LooseBall tested = solid != nullptr ? bounding_ball(slot, *solid) : ball;
+  const Vec3 centre = tested.centre - volume_->apex();
+  if (!mask_.open_ball(centre, tested.radius)) return false;
+  const std::array<double, 2> entrance = ball_entrance(glm::length(centre), tested.radius);
   object.nearest = entrance[0];
   object.farthest = entrance[1];
   return true;
+}
+
+LooseBall Silhouette3D::bounding_ball(Slot slot, const SilhouetteWorld::Solid& solid) const {
+  const Pose& pose = pose_of(slot);
+  const Vec3 centre = to_world(pose, rotation_of(pose.orientation), solid.ball.centre);
+  return {centre, solid.ball.radius + rounding * (apex_size_ + magnitude(pose.position) + magnitude(solid.ball.centre) +
+                                                  solid.ball.radius)};
 }
 
 // The box around a solid, with the world's axes, is a first, cheap test.
@@ -275,7 +283,7 @@ bool Silhouette3D::open_slice(const Sliced& object) {
   const double far =
       object.slice + 1 == slices ? object.farthest : object.nearest + depth * (object.slice + 1) / slices;
   const SilhouetteWorld::Solid* solid = shapes_->solid(object.slot);
-  if (solid != nullptr) {
+  if (solid != nullptr && solid->ball.radius == 0.0) {
     const SightFrame frame = sight(object.slot);
     switch (outer_slice({solid->outer, frame}, near, far, outline_)) {
       case Slice::empty: return false;
@@ -284,8 +292,11 @@ bool Silhouette3D::open_slice(const Sliced& object) {
     }
   }
   const ObjectState& state = world_->objects[object.slot];
-  const Vec3 centre = state.pose.position - volume_->apex();
-  const double radius = ball_slice_radius(glm::length(centre), std::get<Sphere>(state.shape->shape()).radius, far);
+  const LooseBall tested = solid != nullptr
+                               ? bounding_ball(object.slot, *solid)
+                               : LooseBall{state.pose.position, std::get<Sphere>(state.shape->shape()).radius};
+  const Vec3 centre = tested.centre - volume_->apex();
+  const double radius = ball_slice_radius(glm::length(centre), tested.radius, far);
   return radius > 0.0 && mask_.open_ball(centre, radius);
 }
 
@@ -305,7 +316,7 @@ bool Silhouette3D::in_view(Slot slot) const {
 void Silhouette3D::hide_behind(Slot slot) {
   ++answer_->work.occluders;
   const ObjectState& state = world_->objects[slot];
-  if (shapes_->solid(slot) != nullptr) {
+  if (!state.round) {
     hide_behind_pieces(slot);
   } else {
     hide_behind_ball({state.pose.position, std::get<Sphere>(state.shape->shape()).radius});

@@ -58,6 +58,8 @@ class Silhouette3D final : public ViewAnswerer {
   void look(Slot slot);
   bool holds_viewpoint(Slot slot) const;
   bool open_whole(Slot slot, const LooseBall& ball, Sliced& object);
+  /// Where an object is tested as a bounding sphere: that, in the world, with all that rounding may do.
+  LooseBall bounding_ball(Slot slot, const SilhouetteWorld::Solid& solid) const;
   bool open_solid(Slot slot, const SilhouetteWorld::Solid& solid, Sliced& object);
   /// Second test: slice after slice, from the nearest on.
   void look_at_slices(Sliced object);

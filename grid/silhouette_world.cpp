@@ -1,5 +1,6 @@
 #include "gridcull/grid/silhouette_world.h"
 
+#include "gridcull/grid/bound_piece.h"
 #include "gridcull/grid/object_table.h"
 
 namespace gridcull {
@@ -19,15 +20,36 @@ LooseBall ball_around(const Shape& shape) {
   return ball;
 }
 
-std::unique_ptr<SilhouetteWorld::Solid> make_solid(const Shape& shape) {
+/// The box around these points, or as good as around them.
+void set_box(SilhouetteWorld::Solid& solid, const std::vector<Vec3>& points, double reach) {
   Bounds box;
-  for (const Vec3& p : world_vertices(shape, Pose{})) box.add(p);
-  const Vec3 half = 0.5 * box.size() + Vec3(1e-8 * reach_of(shape));
-  return std::make_unique<SilhouetteWorld::Solid>(
-      SilhouetteWorld::Solid{make_occluder_pieces(shape), make_outer_hull(shape), box.centre(), half});
+  for (const Vec3& p : points) box.add(p);
+  solid.box_centre = box.centre();
+  solid.box_half = 0.5 * box.size() + Vec3(1e-8 * reach);
 }
 
 }  // namespace
+
+std::unique_ptr<SilhouetteWorld::Solid> SilhouetteWorld::make_solid(const Shape& shape) const {
+  const bool ball = std::holds_alternative<Sphere>(shape);
+  if (ball && (!bound_ || *bound_ == BoundKind::sphere || *bound_ == BoundKind::hull)) return nullptr;
+  auto solid = std::make_unique<Solid>();
+  solid->pieces = make_occluder_pieces(shape);
+  if (!bound_) {
+    solid->outer = make_outer_hull(shape);
+    set_box(*solid, world_vertices(shape, Pose{}), reach_of(shape));
+  } else if (*bound_ == BoundKind::sphere) {
+    const Ball around = bound_of(shape, BoundKind::sphere).ball;
+    solid->ball = {around.centre, around.radius};
+  } else {
+    solid->outer = bound_piece(shape, *bound_);
+    // Without a piece the object counts as visible unless its box is hidden.
+    const bool missing = solid->outer.vertices.empty();
+    set_box(*solid, missing ? bound_of(shape, BoundKind::box).boundary.vertices : solid->outer.vertices,
+            reach_of(shape));
+  }
+  return solid;
+}
 
 void SilhouetteWorld::reserve(std::size_t slots) {
   index.reserve(slots);
@@ -42,9 +64,7 @@ void SilhouetteWorld::add(Slot slot, const Shape& shape) {
   const double reach = reach_of(shape);
   body.solid.reset();
   if (index.dimension() == 2) outlines.add(slot, shape);
-  if (dimension_of(shape) == 3 && !std::holds_alternative<Sphere>(shape)) {
-    body.solid = make_solid(shape);
-  }
+  if (dimension_of(shape) == 3) body.solid = make_solid(shape);
   body.centred = body.ball.radius > 0.75 * reach;
   if (body.centred)
     body.ball = {{}, reach};

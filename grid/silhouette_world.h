@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "gridcull/core/bound_kind.h"
 #include "gridcull/core/object.h"
 #include "gridcull/grid/lattice.h"
 #include "gridcull/grid/loose_index.h"
@@ -16,8 +18,9 @@ namespace gridcull {
 
 class SilhouetteWorld {
  public:
-  /// `cell`: metres, the side of the finest cells wished for.
-  SilhouetteWorld(int dimension, const Bounds& box, double cell) : index(dimension, box, cell) {}
+  /// `cell`: metres, the side of the finest cells wished for. `bound`: what 3D objects are tested with.
+  SilhouetteWorld(int dimension, const Bounds& box, double cell, std::optional<BoundKind> bound = {})
+      : index(dimension, box, cell), bound_(bound) {}
 
   void reserve(std::size_t slots);
   /// Keeps what the shape needs computed once.
@@ -43,11 +46,12 @@ class SilhouetteWorld {
   /// Whether somebody looked into a node that the ball reaches in this or the last frame.
   bool near_seen(const LooseBall& ball, std::uint64_t frame) const;
 
-  /// What a 3D object other than a ball hides with and is tested with; nullptr for balls.
+  /// What a 3D object hides with and is tested with; nullptr for balls that are tested as balls.
   struct Solid {
-    OccluderPieces pieces;
+    OccluderPieces pieces;  ///< none of balls
     ConvexPiece outer;
-    Vec3 box_centre{0.0}, box_half{0.0};  ///< box around the shape, local axes; grown by 1e-8 for its roundings
+    Vec3 box_centre{0.0}, box_half{0.0};  ///< box around `outer`, local axes; grown by 1e-8 for its roundings
+    LooseBall ball{};                     ///< radius above 0: tested as this ball, local axes, instead of all that
   };
   const Solid* solid(Slot slot) const { return bodies_[slot].solid.get(); }
 
@@ -63,6 +67,8 @@ class SilhouetteWorld {
   OutlineStore outlines;  ///< 2D
 
  private:
+  std::unique_ptr<Solid> make_solid(const Shape& shape) const;
+
   /// Smallest ball we know of about the shape, local axes. About the origin it holds at any orientation.
   struct Body {
     LooseBall ball{};
@@ -70,6 +76,7 @@ class SilhouetteWorld {
     std::unique_ptr<Solid> solid{};
   };
   std::vector<Body> bodies_;
+  std::optional<BoundKind> bound_;
 };
 
 }  // namespace gridcull

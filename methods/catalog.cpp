@@ -22,22 +22,27 @@ TbvMode tbv_mode(const std::string& name) {
 }
 
 std::unique_ptr<Culler> make_engine(const MethodOptions& o, Hiding hiding) {
-  return std::make_unique<GridEngine>(
-      GridOptions{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads, o.max_memory, hiding, o.resolution});
+  return std::make_unique<GridEngine>(GridOptions{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads,
+                                                  o.max_memory, hiding, o.resolution, o.bound});
 }
 
 std::unique_ptr<Culler> make_voxel(const MethodOptions& o) { return make_engine(o, Hiding::voxel); }
 
-std::unique_ptr<Culler> make_silhouette(const MethodOptions& o) { return make_engine(o, Hiding::silhouette); }
+std::unique_ptr<Culler> make_silhouette(const MethodOptions& o) {
+  if (o.bound && o.dimension == 2) {
+    throw Error(ErrorCode::usage, "--bounds: silhouette tests the outlines themselves in 2D scenes");
+  }
+  return make_engine(o, Hiding::silhouette);
+}
 
-std::unique_ptr<Culler> make_frustum(const MethodOptions& o) { return make_frustum_culler(o.dimension); }
+std::unique_ptr<Culler> make_frustum(const MethodOptions& o) { return make_frustum_culler(o.dimension, o.bound); }
 
 std::unique_ptr<Culler> make_pairwise(const MethodOptions& o) {
   return make_pairwise_rays({o.dimension, o.bounds, o.threads});
 }
 
 std::unique_ptr<Culler> make_depth(const MethodOptions& o) {
-  DepthRaysOptions options{.bounds = o.bounds};
+  DepthRaysOptions options{.bounds = o.bounds, .bound = o.bound};
   if (o.rays_width > 0) options.width = o.rays_width, options.height = o.rays_height;
   return make_depth_rays(options);
 }
@@ -69,10 +74,11 @@ std::span<const MethodEntry> method_catalog() {
       MethodEntry{grid_engine_info(Hiding::voxel), "--cell C, --tbv off|solid|hollow, --threads N, --max-memory BYTES",
                   &make_voxel},
       MethodEntry{grid_engine_info(Hiding::silhouette),
-                  "--resolution R (3D), --cell C, --tbv off|solid, --threads N, --max-memory BYTES", &make_silhouette},
-      MethodEntry{frustum_culler_info(), "", &make_frustum},
+                  "--resolution R (3D), --bounds KIND (3D), --cell C, --tbv off|solid, --threads N, --max-memory BYTES",
+                  &make_silhouette},
+      MethodEntry{frustum_culler_info(), "--bounds KIND", &make_frustum},
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
-      MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72)", &make_depth},
+      MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72), --bounds KIND", &make_depth},
       MethodEntry{five_d_tree_info(), "--baked FILE, --view-box METRES", &make_five_d, five_d_baking()},
       MethodEntry{extended_projections_info(), "--resolution R, --cell C, --threads N", &make_extended}};
   return entries;
@@ -95,6 +101,9 @@ std::unique_ptr<Culler> make_method(std::string_view name, const MethodOptions& 
   }
   if (!options.baked.empty() && entry.baking.bake == nullptr) {
     throw Error(ErrorCode::usage, "--baked: " + std::string(name) + " reads no baked file");
+  }
+  if (options.bound && entry.options.find("--bounds") == std::string_view::npos) {
+    throw Error(ErrorCode::usage, "--bounds: " + std::string(name) + " tests no bounds");
   }
   return entry.make(options);
 }

@@ -43,30 +43,43 @@ class Lap {
   Clock::time_point last_ = Clock::now();
 };
 
-/// The corners of an object's box relative to the eye: its own box turned with it; a sphere's, turned to the picture.
-struct Corners {
-  std::array<Vec3, 8> at;  ///< depth, left, up
-};
+/// Depth, left, up of points relative to the eye.
+using Corners = std::vector<Vec3>;
 
-Corners corners_in(const DepthWindow& window, const FlatObject& flat) {
-  const bool ball = flat.local.kind == LocalShape::Kind::ball;
-  const Vec3 middle = window.axes.inverse(flat.centre - window.eye);
-  const Vec3& half = flat.local.half;
-  const Vec3 x = ball ? Vec3(half.x, 0, 0) : window.axes.inverse(half.x * flat.rotation.x);
-  const Vec3 y = ball ? Vec3(0, half.y, 0) : window.axes.inverse(half.y * flat.rotation.y);
-  const Vec3 z = ball ? Vec3(0, 0, half.z) : window.axes.inverse(half.z * flat.rotation.z);
-  Corners out;
+void add_box(const Vec3& middle, const Vec3& x, const Vec3& y, const Vec3& z, Corners& out) {
   for (int k = 0; k < 8; ++k) {
-    out.at[static_cast<std::size_t>(k)] =
-        middle + ((k & 1) != 0 ? x : -x) + ((k & 2) != 0 ? y : -y) + ((k & 4) != 0 ? z : -z);
+    out.push_back(middle + ((k & 1) != 0 ? x : -x) + ((k & 2) != 0 ? y : -y) + ((k & 4) != 0 ? z : -z));
   }
-  return out;
+}
+
+/// A box turned to the picture, around a ball.
+void add_ball(const DepthWindow& window, const Vec3& centre, double radius, Corners& out) {
+  add_box(window.axes.inverse(centre - window.eye), {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}, out);
+}
+
+/// The corners of what an object is tested with: its own box turned with it (a ball's: to the picture), or its bound.
+void corners_in(const DepthWindow& window, const FlatObject& flat, Corners& out) {
+  out.clear();
+  const Vec3& half = flat.local.half;
+  const Pose& pose = flat.object.pose;
+  if (flat.bound && flat.bound->round) {
+    const Ball& ball = flat.bound->ball;
+    add_ball(window, to_world(pose, flat.rotation, ball.centre), ball.radius, out);
+  } else if (flat.bound) {
+    const Vec3 origin = pose.position - window.eye;
+    for (const Vec3& v : flat.bound->boundary.vertices) out.push_back(window.axes.inverse(origin + flat.rotation * v));
+  } else if (flat.local.kind == LocalShape::Kind::ball) {
+    add_ball(window, flat.centre, half.x, out);
+  } else {
+    add_box(window.axes.inverse(flat.centre - window.eye), window.axes.inverse(half.x * flat.rotation.x),
+            window.axes.inverse(half.y * flat.rotation.y), window.axes.inverse(half.z * flat.rotation.z), out);
+  }
 }
 
 /// Whether all corners lie outside one side of the picture's pyramid.
 bool is_beside(const DepthWindow& w, const Corners& corners) {
   bool left = true, right = true, above = true, below = true, behind = true;
-  for (const Vec3& p : corners.at) {
+  for (const Vec3& p : corners) {
     const double across = w.tangent_x * p.x, upright = w.tangent_y * p.x;
     left = left && p.y > across;
     right = right && p.y < -across;
@@ -85,7 +98,7 @@ Place project(const DepthWindow& w, const Corners& corners, PixelBox& pixels, do
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double left = infinity, right = -infinity, top = infinity, bottom = -infinity;
   depth = infinity;
-  for (const Vec3& p : corners.at) {
+  for (const Vec3& p : corners) {
     if (!(p.x > 1e-6)) return Place::at_eye;
     depth = std::min(depth, p.x);
     const double x = 0.5 * w.width * (1.0 - p.y / (p.x * w.tangent_x));
@@ -106,7 +119,7 @@ class DepthRays final : public Culler {
   explicit DepthRays(const DepthRaysOptions& options)
       : options_(options),
         face_(std::max(1, static_cast<int>(std::lround(std::sqrt(1.0 * options.width * options.height))))),
-        world_(3),
+        world_(3, options.bound),
         scene_(options.bounds.empty() ? Vec3(0.0) : options.bounds.centre()) {}
 
   const MethodInfo& info() const override { return depth_rays_info(); }
@@ -150,7 +163,7 @@ class DepthRays final : public Culler {
     stats.collect_us += lap.next();
   }
 
-  void collect(const View& view, const ViewTest& test, Answer& answer) const {
+  void collect(const View& view, const ViewTest& test, Answer& answer) {
     const auto objects = world_.objects();
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
       const FlatObject& flat = objects[i];
@@ -163,11 +176,12 @@ class DepthRays final : public Culler {
     std::sort(answer.visible.begin(), answer.visible.end());
   }
 
-  bool may_show(const FlatObject& flat, WorkCounts& work) const {
+  bool may_show(const FlatObject& flat, WorkCounts& work) {
     for (std::size_t i = 0; i < windows_.size(); ++i) {
       PixelBox pixels;
       double depth = 0.0;
-      const Place place = project(windows_[i], corners_in(windows_[i], flat), pixels, depth);
+      corners_in(windows_[i], flat, corners_);
+      const Place place = project(windows_[i], corners_, pixels, depth);
       if (place == Place::beside) continue;
       if (place == Place::at_eye) return true;
       if (pyramids_[i].may_show(pixels, static_cast<float>(depth * (1.0 - 1e-5)), work.cells_visited)) return true;
@@ -222,6 +236,7 @@ class DepthRays final : public Culler {
   std::vector<DepthWindow> windows_{};
   std::vector<DepthPyramid> pyramids_{};
   std::vector<std::uint32_t> all_{}, holders_{}, skipped_{};
+  Corners corners_{};
 };
 
 }  // namespace

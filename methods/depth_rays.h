@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "gridcull/core/bound_kind.h"
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/culler.h"
 
@@ -11,6 +13,9 @@ namespace gridcull {
 struct DepthRaysOptions {
   Bounds bounds{};               ///< of the world
   int width = 128, height = 72;  ///< rays of a picture, 1 .. 8192
+  /// What objects are tested with, in their local axes. None, the default: their boxes; balls, a box turned to the
+  /// view.
+  std::optional<BoundKind> bound{};
 };
 
 /// Throws Error(usage) for sizes out of range, and where the library was built without Embree.

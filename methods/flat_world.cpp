@@ -65,6 +65,7 @@ void FlatWorld::add(const Object& object) {
   flat.object = object;
   flat.local = make_local_shape(object.shape);
   flat.radius = flat.local.radius * (1.0 + 1e-9);
+  if (bound_) flat.bound = std::make_shared<const BoundingVolume>(bound_of(object.shape, *bound_));
   place(flat, object.pose);
   objects_.push_back(std::move(flat));
   try {

@@ -5,10 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "gridcull/core/bounding_volume.h"
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/culler.h"
 #include "gridcull/methods/local_shape.h"
@@ -18,6 +21,7 @@ namespace gridcull {
 struct FlatObject {
   Object object{};
   LocalShape local{};
+  std::shared_ptr<const BoundingVolume> bound{};  ///< where the world was asked for one
   Rotation rotation{};
   Vec3 centre{0.0};     ///< of the shape's local box, in the world
   double radius = 0.0;  ///< about `centre`: holds the object
@@ -26,7 +30,8 @@ struct FlatObject {
 
 class FlatWorld {
  public:
-  explicit FlatWorld(int dimension) : dimension_(dimension) {}
+  /// `bound`: the volume that objects get besides; none unless asked for.
+  explicit FlatWorld(int dimension, std::optional<BoundKind> bound = {}) : dimension_(dimension), bound_(bound) {}
 
   // As Culler's.
   void add(const Object& object);
@@ -64,6 +69,7 @@ class FlatWorld {
   void touch(const FlatObject& flat) { ++(flat.object.is_static ? static_version_ : moving_version_); }
 
   int dimension_;
+  std::optional<BoundKind> bound_;
   std::vector<FlatObject> objects_{};
   // Ids are mostly small: a table for those, a map for the rest.
   std::vector<std::uint32_t> low_{};

@@ -4,16 +4,42 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
+#include "gridcull/core/bounding_volume.h"
 #include "gridcull/core/error.h"
 #include "gridcull/core/view_volume.h"
 
 namespace gridcull {
 namespace {
 
+/// A volume as a shape and its place in the object's axes, for ViewVolume: polygons and polyhedra by their vertices.
+struct Tested {
+  Shape shape;
+  Vec3 centre{0.0};
+};
+
+// ViewVolume's margins, 1e-14 of the coordinates of each world point, are above twice the rounding of world points that
+// is to be paid (core/bounding_volume.cpp), and a volume is grown by 2^-30 of its size besides.
+Tested tested_with(const Shape& shape, BoundKind kind) {
+  const BoundingVolume bound = bound_of(shape, kind);
+  const bool flat = bound.dimension == 2;
+  if (bound.round && flat) return {Disc{bound.ball.radius}, bound.ball.centre};
+  if (bound.round) return {Sphere{bound.ball.radius}, bound.ball.centre};
+  if (!flat) return {Convex{bound.boundary.vertices}};
+  Polygon polygon;
+  for (const Vec3& v : bound.boundary.vertices) polygon.vertices.emplace_back(v);
+  return {std::move(polygon)};
+}
+
+struct Entry {
+  Object object;
+  std::optional<Tested> tested{};
+};
+
 class FrustumCuller final : public Culler {
  public:
-  explicit FrustumCuller(int dimension) : dimension_(dimension) {}
+  FrustumCuller(int dimension, std::optional<BoundKind> bound) : dimension_(dimension), bound_(bound) {}
 
   const MethodInfo& info() const override { return frustum_culler_info(); }
 
@@ -23,12 +49,14 @@ class FrustumCuller final : public Culler {
                   "object " + std::to_string(object.id) + ": expected a " + std::to_string(dimension_) + "D shape");
     }
     validate(object.shape);
-    if (object.id == no_id || !objects_.emplace(object.id, object).second) {
+    Entry entry{object};
+    if (bound_) entry.tested = tested_with(object.shape, *bound_);
+    if (object.id == no_id || !objects_.emplace(object.id, std::move(entry)).second) {
       throw Error(ErrorCode::bad_scene, "object " + std::to_string(object.id) + ": the id is there already");
     }
   }
   void remove(ObjectId object) override { objects_.erase(find(object)); }
-  void move(ObjectId object, const Pose& pose) override { find(object)->second.pose = pose; }
+  void move(ObjectId object, const Pose& pose) override { find(object)->second.object.pose = pose; }
   void set_source(PositionSource* source) override { source_ = source; }
   void announce_jump(ObjectId object) override { find(object); }
 
@@ -49,7 +77,7 @@ class FrustumCuller final : public Culler {
   }
 
  private:
-  std::map<ObjectId, Object>::iterator find(ObjectId object) {
+  std::map<ObjectId, Entry>::iterator find(ObjectId object) {
     const auto found = objects_.find(object);
     if (found == objects_.end()) {
       throw Error(ErrorCode::unknown_object, "object " + std::to_string(object) + " is not there");
@@ -58,9 +86,9 @@ class FrustumCuller final : public Culler {
   }
 
   void read_positions(FrameStats& stats) {
-    for (auto& [id, object] : objects_) {
-      if (object.is_static) continue;
-      if (source_ != nullptr) object.pose = source_->pose(id);
+    for (auto& [id, entry] : objects_) {
+      if (entry.object.is_static) continue;
+      if (source_ != nullptr) entry.object.pose = source_->pose(id);
       ++stats.positions_read;
     }
   }
@@ -70,17 +98,27 @@ class FrustumCuller final : public Culler {
     answer.viewer = view.viewer;
     answer.visible.clear();
     answer.work = {};
-    for (const auto& [id, object] : objects_) {
+    for (const auto& [id, entry] : objects_) {
       if (id == view.rides) continue;
       ++answer.work.object_tests;
-      if (volume.may_touch(object.shape, object.pose) || interior_holds(object.shape, object.pose, volume.apex())) {
+      const Object& object = entry.object;
+      if (may_touch(volume, entry) || interior_holds(object.shape, object.pose, volume.apex())) {
         answer.visible.push_back(id);
       }
     }
   }
 
+  static bool may_touch(const ViewVolume& volume, const Entry& entry) {
+    const Pose& pose = entry.object.pose;
+    if (!entry.tested) return volume.may_touch(entry.object.shape, pose);
+    if (entry.tested->centre == Vec3(0.0)) return volume.may_touch(entry.tested->shape, pose);
+    const Vec3 centre = to_world(pose, rotation_of(pose.orientation), entry.tested->centre);
+    return volume.may_touch(entry.tested->shape, {centre, pose.orientation});
+  }
+
   int dimension_;
-  std::map<ObjectId, Object> objects_;
+  std::optional<BoundKind> bound_;
+  std::map<ObjectId, Entry> objects_;
   PositionSource* source_ = nullptr;
   double now_ = 0.0;
   bool started_ = false;
@@ -94,6 +132,8 @@ const MethodInfo& frustum_culler_info() {
   return info;
 }
 
-std::unique_ptr<Culler> make_frustum_culler(int dimension) { return std::make_unique<FrustumCuller>(dimension); }
+std::unique_ptr<Culler> make_frustum_culler(int dimension, std::optional<BoundKind> bound) {
+  return std::make_unique<FrustumCuller>(dimension, bound);
+}
 
 }  // namespace gridcull

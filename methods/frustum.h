@@ -2,13 +2,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "gridcull/core/bound_kind.h"
 #include "gridcull/core/culler.h"
 
 namespace gridcull {
 
-/// Reports every object that may touch the view volume. `dimension` 2 or 3.
-std::unique_ptr<Culler> make_frustum_culler(int dimension);
+/// Reports every object that may touch the view volume. `dimension` 2 or 3. `bound`: the volume of each object that is
+/// tested, in its local axes; none: its own points.
+std::unique_ptr<Culler> make_frustum_culler(int dimension, std::optional<BoundKind> bound = {});
 
 const MethodInfo& frustum_culler_info();
 

@@ -14,6 +14,12 @@
 namespace gridcull {
 namespace {
 
+BoundKind parse_bounds(const std::string& name) {
+  const std::optional<BoundKind> kind = find_bound_kind(name);
+  if (!kind) throw option_error("--bounds", bound_kind_names(), name);
+  return *kind;
+}
+
 void check_options(const WorldOptions& options) {
   if (options.cell && !(*options.cell > 0.0 && std::isfinite(*options.cell))) {
     throw option_error("--cell", "a size above 0", number_text(*options.cell));
@@ -25,6 +31,7 @@ void check_options(const WorldOptions& options) {
     throw option_error("--tbv", "off, solid or hollow", options.tbv);
   }
   if (!options.resolution.empty()) (void)parse_resolution(options.resolution);
+  if (!options.bounds.empty()) (void)parse_bounds(options.bounds);
   if (options.scene == "-" && options.frames == "-") {
     throw Error(ErrorCode::usage, "--frames -: standard input is the scene already");
   }
@@ -70,6 +77,12 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
       .add_option("--view-box", options.view_box,
                   "five-d-tree: edge of the box about a viewpoint that its queries take (default 0)")
       ->type_name("METRES");
+  command
+      .add_option("--bounds", options.bounds,
+                  "what objects are tested with: " + bound_kind_names() +
+                      ", in their own axes (default: silhouette in 3D the convex hull of small shapes and the box of "
+                      "others, depth-rays the box, frustum the shape itself)")
+      ->type_name("KIND");
   command.add_flag("--pull", options.pull,
                    "the method asks for the positions that it needs, instead of being told all");
 }
@@ -106,6 +119,7 @@ std::unique_ptr<Culler> make_culler(const WorldOptions& options, const PreparedW
       if (entry.info.name == options.method) apply_resolution(resolution, entry, method);
     }
   }
+  if (!options.bounds.empty()) method.bound = parse_bounds(options.bounds);
   return make_method(options.method, method);
 }
 

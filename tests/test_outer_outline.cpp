@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "gridcull/grid/bound_piece.h"
 #include "gridcull/grid/occluder_pieces.h"
 #include "gridcull/grid/outer_outline.h"
 #include "random_solids.h"
@@ -14,12 +15,21 @@ using namespace gridcull::test;
 namespace {
 
 /// Strictly within the convex hull of the directions: no plane between two rays that has all others on its other side.
+/// Rays that are equal but for rounding span no plane of their own; one of them stands for all.
 bool holds(const Outline& outline, const Long3& d) {
-  bool inside_all = true;
-  for (std::size_t i = 0, n = static_cast<std::size_t>(outline.count); i < n && inside_all; ++i) {
-    inside_all = dot(cross(longer(outline.rays[i]), longer(outline.rays[(i + 1) % n])), d) > 0;
+  std::vector<Long3> rays;
+  const auto apart = [](const Long3& a, const Long3& b) {
+    return length(cross(a, b)) > 0x1p-32L * length(a) * length(b);
+  };
+  for (int i = 0; i < outline.count; ++i) {
+    const Long3 ray = longer(outline.rays[static_cast<std::size_t>(i)]);
+    if (rays.empty() || apart(rays.back(), ray)) rays.push_back(ray);
   }
-  return inside_all;
+  while (rays.size() > 1 && !apart(rays.back(), rays.front())) rays.pop_back();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!(dot(cross(rays[i], rays[(i + 1) % rays.size()]), d) > 0)) return false;
+  }
+  return true;
 }
 
 long double unit(std::mt19937_64& random) { return static_cast<long double>(random() >> 11) * 0x1p-53L; }
@@ -63,8 +73,7 @@ void check_slices(const Placement& placed, const PlacedPiece& hull, const Outlin
   }
 }
 
-void check(const Placement& placed, std::mt19937_64& random, Counts& counts) {
-  const ConvexPiece hull = make_outer_hull(placed.shape);
+void check(const Placement& placed, const ConvexPiece& hull, std::mt19937_64& random, Counts& counts) {
   const SightFrame frame = sight_frame(placed.pose, rotation_of(placed.pose.orientation), placed.eye);
   Outline outline;
   if (!outer_outline({hull, frame}, outline)) {
@@ -89,10 +98,54 @@ TEST_CASE("outer outlines and slices hold the object") {
   Counts counts;
   for (std::uint64_t seed = 0; seed < 6000; ++seed) {
     CAPTURE(seed);
-    check(random_placement(seed), random, counts);
+    const Placement placed = random_placement(seed);
+    check(placed, make_outer_hull(placed.shape), random, counts);
   }
   MESSAGE(counts.outlines << " outlines, " << counts.unknown << " unknown, " << counts.slices << " slices, "
                           << counts.unknown_slices << " unknown, " << counts.empty_slices << " empty");
   CHECK(counts.outlines > 2 * counts.unknown);
   CHECK(counts.slices > counts.unknown_slices);
+}
+
+TEST_CASE("outlines and slices of bounding volumes hold the object") {
+  std::mt19937_64 random(7);
+  for (const BoundKind kind : all_bound_kinds) {
+    if (kind == BoundKind::sphere) continue;  // tested as a ball
+    CAPTURE(name_of(kind));
+    Counts counts;
+    for (std::uint64_t seed = 20000; seed < 20800; ++seed) {
+      CAPTURE(seed);
+      const Placement placed = random_placement(seed);
+      const ConvexPiece piece = bound_piece(placed.shape, kind);
+      REQUIRE(!piece.vertices.empty());
+      check(placed, piece, random, counts);
+    }
+    MESSAGE(name_of(kind) << ": " << counts.outlines << " outlines, " << counts.unknown << " unknown");
+    CHECK(counts.outlines > counts.unknown);
+    CHECK(counts.slices > counts.unknown_slices);
+  }
+}
+
+TEST_CASE("pieces of bounding volumes: boxes stay boxes, large hulls become 26-DOPs, flat shapes get a thickness") {
+  for (const BoundKind kind :
+       {BoundKind::box, BoundKind::obb, BoundKind::dop14, BoundKind::dop18, BoundKind::dop26, BoundKind::hull}) {
+    CAPTURE(name_of(kind));
+    CHECK(bound_piece(Cuboid{{2, 3, 4}}, kind).faces.size() == 6);
+    CHECK(bound_piece(Cuboid{{2, 3, 4}}, kind).vertices.size() == 8);
+    const Faces triangle{{{1, 1, 1}, {4, 1, 1}, {1, 3, 1}}, {{0, 1, 2}}};
+    const ConvexPiece flat = bound_piece(triangle, kind);
+    REQUIRE(!flat.vertices.empty());
+    CHECK(flat.inradius > 1e-6);
+    CHECK(flat.inradius < 1e-3);
+    const bool round = kind == BoundKind::hull;
+    CHECK(bound_piece(Sphere{2.0}, kind).vertices.empty() == round);
+  }
+  Convex many;
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 200; ++i) {
+    const auto u = [&] { return static_cast<double>(unit(random)) - 0.5; };
+    many.vertices.push_back(glm::normalize(Vec3(u(), u(), u())));
+  }
+  CHECK(bound_piece(many, BoundKind::hull).faces.size() == 26);
+  CHECK(bound_piece(many, BoundKind::sphere).vertices.empty());
 }

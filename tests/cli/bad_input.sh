@@ -144,6 +144,10 @@ refused "unknown command" "fly" fly
 refused "unknown option" "wings" run s.json --wings
 refused "no scene" "SCENE" run
 refused "unknown method" "voxel" run s.json --method magic "${everything[@]}"
+refused "unknown bounds" "box, sphere, obb, 14-dop" run s.json --bounds 16-dop "${everything[@]}"
+refused "unknown bounds (check)" "bounds" check s.json --bounds BOX
+refused "bounds for a method that tests none" "voxel tests no bounds" run s.json --method voxel --bounds box "${everything[@]}"
+refused "bounds for silhouettes in 2D" "2D" run s.json --bounds box "${everything[@]}"
 refused "cell 0" "cell" run s.json --cell 0 "${everything[@]}"
 refused "cell nan" "cell" run s.json --cell nan "${everything[@]}"
 refused "cell inf" "cell" run s.json --cell inf "${everything[@]}"

@@ -54,6 +54,7 @@ same "scene from a pipe" piped.jsonl plain.jsonl
 same "frames from a pipe" piped.jsonl plain.jsonl
 
 # Checks.
+good "bounds" run town/scene.json --frames town/frames.jsonl --method frustum --bounds 26-dop
 for method in voxel frustum; do
   good "check $method" check town/scene.json --frames town/frames.jsonl --every 4 --method "$method" --json
   is "judged frames" "$(json judged_frames stdout.txt)" 3
