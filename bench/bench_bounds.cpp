@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,35 +44,43 @@ double least_seconds(int repeats, const F& work) {
   return least;
 }
 
-struct Culled {
-  double share = 0.0;    ///< of the model's triangles, not drawn
-  double objects = 0.0;  ///< share of the parts
-  double ms = 0.0;       ///< a frame
-  double queries = 0.0;  ///< a frame
-};
+/// What one contender did in all frames: work of a round, least time of each frame over the rounds.
+struct Meter {
+  explicit Meter(const Model& m) : model(&m), least(m.views.size(), std::numeric_limits<double>::infinity()) {}
 
-/// The least time of each frame, over rounds of all frames.
-template <class Cull>
-Culled measure(const Model& model, int repeats, const Cull& cull) {
-  CullResult sum;
-  std::vector<double> least(model.views.size(), std::numeric_limits<double>::infinity());
-  for (int i = 0; i < repeats; ++i) {
+  /// `cull(view)` gives a CullResult.
+  template <class Cull>
+  void round(const Cull& cull) {
     sum = {};
-    for (std::size_t v = 0; v < model.views.size(); ++v) {
+    for (std::size_t v = 0; v < least.size(); ++v) {
       CullResult one;
-      least[v] = std::min(least[v], least_seconds(1, [&] { one = cull(model.views[v]); }));
+      least[v] = std::min(least[v], least_seconds(1, [&] { one = cull(model->views[v]); }));
       sum.drawn_triangles += one.drawn_triangles;
       sum.drawn_parts += one.drawn_parts;
       sum.queries += one.queries;
     }
   }
-  double seconds = 0.0;
-  for (const double s : least) seconds += s;
-  const auto frames = static_cast<double>(model.views.size());
-  return {1.0 - static_cast<double>(sum.drawn_triangles) / (frames * static_cast<double>(triangles_of(model))),
-          1.0 - static_cast<double>(sum.drawn_parts) / (frames * static_cast<double>(model.parts.size())),
-          1e3 * seconds / frames, static_cast<double>(sum.queries) / frames};
-}
+
+  double frames() const { return static_cast<double>(least.size()); }
+  /// Per cent of the model's triangles or parts that were not drawn.
+  double culled() const {
+    return 100.0 *
+           (1.0 - static_cast<double>(sum.drawn_triangles) / (frames() * static_cast<double>(triangles_of(*model))));
+  }
+  double culled_parts() const {
+    return 100.0 * (1.0 - static_cast<double>(sum.drawn_parts) / (frames() * static_cast<double>(model->parts.size())));
+  }
+  double ms() const {
+    double seconds = 0.0;
+    for (const double s : least) seconds += s;
+    return 1e3 * seconds / frames();
+  }
+  double queries() const { return static_cast<double>(sum.queries) / frames(); }
+
+  const Model* model;
+  std::vector<double> least;
+  CullResult sum{};
+};
 
 /// Of the leaves' bounds.
 struct Complexity {
@@ -89,32 +98,50 @@ Complexity complexity_of(const BoundTree& tree) {
   return out;
 }
 
+/// All contenders in turn, round by round, so that they share the machine's moods.
+template <class Cull>
+std::vector<Meter> race(const Model& model, std::size_t contenders, int repeats, const Cull& cull) {
+  std::vector<Meter> meters(contenders, Meter(model));
+  for (int i = 0; i < repeats; ++i) {
+    for (std::size_t k = 0; k < contenders; ++k) {
+      meters[k].round([&](const View& view) { return cull(k, view); });
+    }
+  }
+  return meters;
+}
+
 void table_2(const Model& model, int repeats) {
+  std::vector<BoundTree> trees;
+  for (const BoundKind kind : all_bound_kinds) trees.emplace_back(model, kind);
+  DepthBuffer buffer;
+  const auto meters = race(model, trees.size(), repeats, [&](std::size_t k, const View& view) {
+    return cull_sequential(trees[k], view, untested, buffer);
+  });
   std::printf("\n%s, depth buffer, sequential\n%-8s %9s %9s %9s %9s %18s\n", model.name.c_str(), "bound", "culled %",
               "parts %", "ms/frame", "queries", "triangles (most)");
-  for (const BoundKind kind : all_bound_kinds) {
-    const BoundTree tree(model, kind);
-    DepthBuffer buffer;
-    const Culled c = measure(model, repeats, [&](const View& v) { return cull_sequential(tree, v, untested, buffer); });
-    const Complexity t = complexity_of(tree);
-    std::printf("%-8s %9.2f %9.2f %9.3f %9.1f %11.0f (%zu)\n", std::string(name_of(kind)).c_str(), 100 * c.share,
-                100 * c.objects, c.ms, c.queries, t.mean, t.most);
+  for (std::size_t k = 0; k < trees.size(); ++k) {
+    const Complexity t = complexity_of(trees[k]);
+    std::printf("%-8s %9.2f %9.2f %9.3f %9.1f %11.0f (%zu)\n", std::string(name_of(all_bound_kinds[k])).c_str(),
+                meters[k].culled(), meters[k].culled_parts(), meters[k].ms(), meters[k].queries(), t.mean, t.most);
   }
 }
 
 void table_4(const Model& model, int repeats) {
+  const std::vector<BoundKind> kinds{BoundKind::box, BoundKind::dop14, BoundKind::dop18, BoundKind::dop26};
+  std::vector<BoundTree> trees;
+  for (const BoundKind kind : kinds) trees.emplace_back(model, kind);
+  DepthBuffer buffer;
+  const auto meters = race(model, trees.size(), repeats,
+                           [&](std::size_t k, const View& view) { return cull_hierarchical(trees[k], view, buffer); });
   std::printf("\n%s, depth buffer, hierarchical\n%-8s %9s %9s %9s %9s\n", model.name.c_str(), "bound", "culled %",
               "parts %", "ms/frame", "queries");
-  for (const BoundKind kind : {BoundKind::box, BoundKind::dop14, BoundKind::dop18, BoundKind::dop26}) {
-    const BoundTree tree(model, kind);
-    DepthBuffer buffer;
-    const Culled c = measure(model, repeats, [&](const View& v) { return cull_hierarchical(tree, v, buffer); });
-    std::printf("%-8s %9.2f %9.2f %9.3f %9.1f\n", std::string(name_of(kind)).c_str(), 100 * c.share, 100 * c.objects,
-                c.ms, c.queries);
+  for (std::size_t k = 0; k < trees.size(); ++k) {
+    std::printf("%-8s %9.2f %9.2f %9.3f %9.1f\n", std::string(name_of(kinds[k])).c_str(), meters[k].culled(),
+                meters[k].culled_parts(), meters[k].ms(), meters[k].queries());
   }
 }
 
-void silhouette_row(const Model& model, std::optional<BoundKind> kind, int repeats) {
+std::unique_ptr<GridEngine> engine_for(const Model& model, std::optional<BoundKind> kind) {
   GridOptions options;
   options.dimension = 3;
   options.bound = kind;
@@ -123,31 +150,30 @@ void silhouette_row(const Model& model, std::optional<BoundKind> kind, int repea
   }
   const Vec3 size = options.bounds.size();
   options.cell = std::max({size.x, size.y, size.z}) / 50.0;
-  GridEngine engine(options);
-  for (const Object& object : objects_of(model)) engine.add(object);
-  Answers answers;
-  double time = 0.0;
-  std::uint64_t reported = 0;
-  std::vector<double> least(model.views.size(), std::numeric_limits<double>::infinity());
-  for (int i = 0; i <= repeats; ++i) {  // the first round discretises
-    for (std::size_t v = 0; v < model.views.size(); ++v) {
-      const double seconds = least_seconds(1, [&] { engine.query(++time, {&model.views[v], 1}, answers); });
-      if (i > 0) least[v] = std::min(least[v], seconds);
-      if (i == repeats) reported += answers.views[0].visible.size();
-    }
-  }
-  double sum = 0.0;
-  for (const double seconds : least) sum += seconds;
-  const auto frames = static_cast<double>(model.views.size());
-  std::printf("%-8s %9.2f %9.3f\n", kind ? std::string(name_of(*kind)).c_str() : "default",
-              100.0 * (1.0 - static_cast<double>(reported) / (frames * static_cast<double>(model.parts.size()))),
-              1e3 * sum / frames);
+  auto engine = std::make_unique<GridEngine>(options);
+  for (const Object& object : objects_of(model)) engine->add(object);
+  return engine;
 }
 
 void table_2b(const Model& model, int repeats) {
-  std::printf("\n%s, method silhouette\n%-8s %9s %9s\n", model.name.c_str(), "bound", "parts %", "ms/frame");
-  for (const BoundKind kind : all_bound_kinds) silhouette_row(model, kind, repeats);
-  silhouette_row(model, std::nullopt, repeats);
+  std::vector<std::unique_ptr<GridEngine>> engines;
+  for (const BoundKind kind : all_bound_kinds) engines.push_back(engine_for(model, kind));
+  engines.push_back(engine_for(model, std::nullopt));
+  Answers answers;
+  double time = 0.0;
+  const auto query = [&](std::size_t k, const View& view) {
+    engines[k]->query(++time, {&view, 1}, answers);
+    return CullResult{0, answers.views[0].visible.size(), answers.views[0].work.rasters};
+  };
+  for (std::size_t k = 0; k < engines.size(); ++k) (void)query(k, model.views[0]);  // the first frame discretises
+  const auto meters = race(model, engines.size(), repeats, query);
+  std::printf("\n%s, method silhouette\n%-8s %9s %9s %9s\n", model.name.c_str(), "bound", "parts %", "ms/frame",
+              "strips");
+  for (std::size_t k = 0; k < engines.size(); ++k) {
+    const std::string name(k < all_bound_kinds.size() ? name_of(all_bound_kinds[k]) : "default");
+    std::printf("%-8s %9.2f %9.3f %9.0f\n", name.c_str(), meters[k].culled_parts(), meters[k].ms(),
+                meters[k].queries());
+  }
 }
 
 void table_5(const Model& model) {

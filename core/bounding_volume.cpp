@@ -177,9 +177,17 @@ BoundingVolume refit(const BoundingVolume& bound, const Pose& pose) {
     out.size = magnitude(placed.ball.centre) + 3.0 * placed.ball.radius;
     return out;
   }
-  if (bound.kind != BoundKind::obb) return bound_of(placed.boundary.vertices, bound.kind, bound.dimension);
+  if (has_slabs(bound.kind)) return bound_of(placed.boundary.vertices, bound.kind, bound.dimension);
   BoundingVolume out = start(bound.kind, bound.dimension, size_of(placed.boundary.vertices));
   const Rotation r = rotation_of(pose.orientation);
+  if (bound.kind == BoundKind::hull) {
+    // The old faces; the ball inside pays for the turn and for what moved its vertices.
+    const double radius = bound.inner.radius * (1.0 - 0x1p-20) - 4.0 * place_error(bound, pose);
+    if (radius > 0x1p-20 * out.size) out.inner = {to_world(pose, r, bound.inner.centre), radius};
+    out.bare = std::move(placed.boundary);
+    write_boundary(out);
+    return out;
+  }
   Rotation axes{glm::normalize(r * bound.obb.axes.x), {}, {}};
   axes.z = r * bound.obb.axes.z;
   axes.z = glm::normalize(axes.z - glm::dot(axes.z, axes.x) * axes.x);

@@ -29,7 +29,7 @@ struct BoundingVolume {
   // What the boundary was made of, where it is made again with more growth.
   Slabs slabs{};          ///< box and k-DOPs
   OrientedBox obb{};      ///< obb
-  ConvexBoundary bare{};  ///< hull, its vertices the given points themselves
+  ConvexBoundary bare{};  ///< hull, its vertices the given points themselves (re-fitted: the old boundary's)
   Ball inner{};           ///< lies in it; radius 0 where it is nearly flat
 };
 

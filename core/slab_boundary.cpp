@@ -6,18 +6,19 @@
 // Claim 1 (combinatorics). With an interior point as origin all d > 0, and the orientation of four dual points
 // (n_i / d_i, 1) has the sign of the determinant of their rows (n_i, d_i). Moving the origin subtracts multiples of the
 // columns of n from the column of d: the sign is the same, so no interior point need be known. Expanded along that
-// column it is a sum of four doubles with integer factors of magnitude <= 4: its sign is found exactly. As in
-// core/hull.cpp, a facet is replaced only when the new point lies strictly beyond it, and the replaced ones form a
-// disc.
+// column it is a sum of four doubles with integer factors of magnitude <= 4: its sign is found exactly (most times by
+// a filter). As in core/hull.cpp, a facet is replaced only when the new point lies strictly beyond it, and the
+// replaced ones form a disc.
 //
-// Claim 2 (containment). Let P be the polytope of the planes moved out by `grown` (offsets as stored: rounded, and the
-// projections were off by 2^-51 size). By claim 1 each facet's three planes have an integer determinant D, |D| >= 1,
-// and their vertex is (d_i (n_j x n_k) + d_j (n_k x n_i) + d_k (n_i x n_j)) / D, where the cross products have entries
-// of magnitude <= 2: products exact, two sums, one quotient, so a coordinate is off by at most
-// 3 * 2^-53 * 6 max d and the vertex by e < 2^-48 max d; max d <= size + 2 grown. So the stored vertices' support in
-// any unit direction u is at least P's less e. A point x whose ball of radius e lies in P therefore satisfies u.x <=
-// the stored vertices' support for all u: it lies in their hull. Each plane of P is farther than grown - 2^-50 (size +
-// grown) from all points, and 2^-50 (size + grown) + e < 2^-44 size + 2^-40 grown: that last part is added on top here.
+// Claim 2 (containment). Let P be the polytope of the planes moved out, each by at least `grown` (offsets as stored:
+// rounded, and the projections were off by 2^-51 size). By claim 1 each facet's three planes have an integer
+// determinant D, |D| >= 1, and their vertex is (d_i (n_j x n_k) + d_j (n_k x n_i) + d_k (n_i x n_j)) / D, where the
+// cross products have entries of magnitude <= 2: products exact, two sums, one quotient, so a coordinate is off by at
+// most 3 * 2^-53 * 6 max d and the vertex by e < 2^-48 max d; max d <= size + 3.02 grown. So the stored vertices'
+// support in any unit direction u is at least P's less e. A point x whose ball of radius e lies in P therefore
+// satisfies u.x <= the stored vertices' support for all u: it lies in their hull. Each plane of P is farther than
+// grown - 2^-50 (size + grown) from all points, and 2^-50 (size + grown) + e < 2^-44 size + 2^-40 grown: that last part
+// is added on top here.
 //
 // 2D: the octagon is a rectangle with its corners cut; each vertex is one sum of two offsets, so claim 2 holds too.
 #include <algorithm>
