@@ -10,6 +10,7 @@
 #include "gridcull/methods/extended_projections.h"
 #include "gridcull/methods/frustum.h"
 #include "gridcull/methods/pairwise_rays.h"
+#include "gridcull/methods/shadow_frusta.h"
 
 namespace gridcull {
 namespace {
@@ -40,6 +41,8 @@ std::unique_ptr<Culler> make_frustum(const MethodOptions& o) { return make_frust
 std::unique_ptr<Culler> make_pairwise(const MethodOptions& o) {
   return make_pairwise_rays({o.dimension, o.bounds, o.threads});
 }
+
+std::unique_ptr<Culler> make_shadows(const MethodOptions& o) { return make_shadow_frusta({o.dimension, o.occluders}); }
 
 std::unique_ptr<Culler> make_depth(const MethodOptions& o) {
   DepthRaysOptions options{.bounds = o.bounds, .bound = o.bound};
@@ -77,6 +80,7 @@ std::span<const MethodEntry> method_catalog() {
                   "--resolution R (3D), --bounds KIND (3D), --cell C, --tbv off|solid, --threads N, --max-memory BYTES",
                   &make_silhouette},
       MethodEntry{frustum_culler_info(), "--bounds KIND", &make_frustum},
+      MethodEntry{shadow_frusta_info(), "--occluders N (default 8)", &make_shadows},
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
       MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72), --bounds KIND", &make_depth},
       MethodEntry{five_d_tree_info(), "--baked FILE, --view-box METRES", &make_five_d, five_d_baking()},

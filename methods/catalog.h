@@ -27,6 +27,7 @@ struct MethodOptions {
   std::uint64_t max_memory = std::uint64_t{4} << 30;
   int resolution = 0;                   ///< pixels along a cube face's edge, 1 .. 8192; 0: the method's default
   int rays_width = 0, rays_height = 0;  ///< rays of a picture, 1 .. 8192 each; 0: the method's default
+  int occluders = 8;                    ///< `shadow-frusta`: used at most, each frame and viewer, 1 .. 64
   std::optional<BoundKind> bound{};     ///< what objects are tested with; none: the method's own choice
   std::string baked{};                  ///< file that the method reads instead of baking; "": none
   BakeSettings bake{};                  ///< for baking

@@ -1,0 +1,21 @@
+// Shadow frusta: a few good occluders a frame, and a hierarchy of boxes culled against what they hide.
+#pragma once
+
+#include <memory>
+
+#include "gridcull/core/culler.h"
+
+namespace gridcull {
+
+struct ShadowFrustaOptions {
+  int dimension = 3;
+  int occluders = 8;   ///< used at most, each frame and viewer: 1 .. 64
+  bool unions = true;  ///< whether two occluders may hide an object together
+};
+
+/// Throws Error(usage) for a number of occluders out of range.
+std::unique_ptr<Culler> make_shadow_frusta(const ShadowFrustaOptions& options);
+
+const MethodInfo& shadow_frusta_info();
+
+}  // namespace gridcull
