@@ -5,9 +5,9 @@
 #include "gridcull/core/error.h"
 #include "gridcull/grid/engine.h"
 #include "gridcull/methods/depth_rays.h"
+#include "gridcull/methods/extended_projections.h"
 #include "gridcull/methods/five_d_bake.h"
 #include "gridcull/methods/five_d_tree.h"
-#include "gridcull/methods/extended_projections.h"
 #include "gridcull/methods/frustum.h"
 #include "gridcull/methods/pairwise_rays.h"
 #include "gridcull/methods/shadow_frusta.h"
@@ -42,7 +42,9 @@ std::unique_ptr<Culler> make_pairwise(const MethodOptions& o) {
   return make_pairwise_rays({o.dimension, o.bounds, o.threads});
 }
 
-std::unique_ptr<Culler> make_shadows(const MethodOptions& o) { return make_shadow_frusta({o.dimension, o.occluders}); }
+std::unique_ptr<Culler> make_shadows(const MethodOptions& o) {
+  return make_shadow_frusta({.dimension = o.dimension, .occluders = o.occluders});
+}
 
 std::unique_ptr<Culler> make_depth(const MethodOptions& o) {
   DepthRaysOptions options{.bounds = o.bounds, .bound = o.bound};

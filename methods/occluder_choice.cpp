@@ -1,6 +1,7 @@
 #include "gridcull/methods/occluder_choice.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace gridcull {
 namespace {
@@ -65,6 +66,7 @@ void RankedList::insertion_sort() {
 
 void OccluderChoice::begin_frame(const ShadowWorld& world, std::size_t views) {
   ++frame_;
+  regions_.begin_frame(world);
   // Viewers that are gone are forgotten, now and then.
   if (viewers_.size() > 2 * views + 64) {
     std::erase_if(viewers_, [this](const auto& v) { return v.second.frame + 1 < frame_; });
@@ -75,14 +77,37 @@ void OccluderChoice::begin_frame(const ShadowWorld& world, std::size_t views) {
   for (auto& [id, viewer] : viewers_) viewer.ranked.forget();
 }
 
+void OccluderChoice::add_candidate(const ShadowWorld& world, std::uint32_t entry, double sampled, const Vec3& eye) {
+  const double angle = world.area_angle_of(world.entries()[entry], eye);
+  if (!(angle > least_angle)) return;
+  const double all_directions = (world.dimension() == 2 ? 2.0 : 4.0) * std::numbers::pi;
+  const double worth = weights_.angle * angle / all_directions + weights_.sampled * sampled;
+  candidates_.push_back({world.entries()[entry].key(), entry, worth});
+}
+
+/// Static parts that promise something from the viewer's region, and all moving ones: by entry.
 void OccluderChoice::rank(const ShadowWorld& world, const Vec3& eye, Viewer& viewer) {
   candidates_.clear();
-  const auto entries = world.entries();
-  for (std::uint32_t i = 0; i < entries.size(); ++i) {
-    const double worth = world.area_angle_of(entries[i], eye);
-    if (worth > least_angle) candidates_.push_back({entries[i].key(), i, worth});
+  if (const auto* promises = regions_.at(world, eye)) {
+    for (const OccluderRegions::Promise& p : *promises) add_candidate(world, p.entry, p.hidden, eye);
+  } else {
+    for (std::uint32_t i = 0; i < world.static_count(); ++i) add_candidate(world, i, 0.0, eye);
   }
+  for (std::uint32_t i = world.static_count(); i < world.entries().size(); ++i) add_candidate(world, i, 0.0, eye);
+  if (weights_.recent > 0.0) add_recent(world, viewer);
   viewer.ranked.update(candidates_, places_);
+}
+
+/// What hid well in the viewer's last frame will do so again.
+void OccluderChoice::add_recent(const ShadowWorld& world, const Viewer& viewer) {
+  const double all = static_cast<double>(world.boxes().size());
+  for (const Track& track : viewer.tracks) {
+    if (track.hidden == 0 || track.frame + 1 != frame_) continue;
+    const auto found = std::lower_bound(candidates_.begin(), candidates_.end(), track.entry,
+                                        [](const RankedPart& c, std::uint32_t entry) { return c.entry < entry; });
+    if (found == candidates_.end() || found->key != track.key) continue;
+    found->worth += weights_.recent * static_cast<double>(track.hidden) / all;
+  }
 }
 
 std::span<const ShadowFrustum* const> OccluderChoice::choose(const ShadowWorld& world, const View& view,
@@ -104,6 +129,7 @@ std::span<const ShadowFrustum* const> OccluderChoice::choose(const ShadowWorld& 
     if (lies_in_shadow(world.boxes()[entry.place], eye)) continue;
     const FlatObject& flat = world.object(entry.place);
     Track& track = track_of(viewer, ranked.key);
+    track.entry = ranked.entry;
     ShadowFrustum& frustum = frusta_[used_.size()];
     if (!frustum.build(*entry.part, flat.object.pose, flat.rotation, eye, track.silhouette)) continue;
     used_.push_back(&frustum);

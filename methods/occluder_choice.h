@@ -7,10 +7,18 @@
 #include <vector>
 
 #include "gridcull/core/view_volume.h"
+#include "gridcull/methods/occluder_regions.h"
 #include "gridcull/methods/shadow_frustum.h"
 #include "gridcull/methods/shadow_world.h"
 
 namespace gridcull {
+
+/// What counts for how much when occluders are ranked (section 4). All three are shares of what there is to hide:
+/// of all directions covered, of the static objects hidden from nearby viewpoints, of all objects hidden in the
+/// viewer's last frame.
+struct OccluderWeights {
+  double angle = 1.0, sampled = 0.0, recent = 0.0;
+};
 
 /// A candidate and what it is worth.
 struct RankedPart {
@@ -51,7 +59,8 @@ class RankedList {
 class OccluderChoice {
  public:
   /// `count` at most, 1 .. 64.
-  explicit OccluderChoice(std::size_t count) : count_(count), frusta_(count) {}
+  OccluderChoice(std::size_t count, const OccluderWeights& weights)
+      : count_(count), weights_(weights), frusta_(count) {}
 
   /// Call once a frame, after the world's begin_frame().
   void begin_frame(const ShadowWorld& world, std::size_t views);
@@ -68,7 +77,8 @@ class OccluderChoice {
     std::uint64_t key = 0;
     std::uint64_t frame = 0;  ///< last used
     SilhouetteTrack silhouette{};
-    std::uint64_t hidden = 0;  ///< objects, in the last frame
+    std::uint32_t entry = 0;
+    std::uint64_t hidden = 0;  ///< objects, when last used
   };
   /// What is kept of a viewer from frame to frame.
   struct Viewer {
@@ -78,10 +88,14 @@ class OccluderChoice {
   };
 
   void rank(const ShadowWorld& world, const Vec3& eye, Viewer& viewer);
+  void add_candidate(const ShadowWorld& world, std::uint32_t entry, double sampled, const Vec3& eye);
+  void add_recent(const ShadowWorld& world, const Viewer& viewer);
   bool lies_in_shadow(const Bounds& box, const Vec3& eye) const;
   Track& track_of(Viewer& viewer, std::uint64_t key);
 
   std::size_t count_;
+  OccluderWeights weights_;
+  OccluderRegions regions_{};
   std::vector<ShadowFrustum> frusta_;
   std::vector<const ShadowFrustum*> used_{};
   std::vector<Track*> used_tracks_{};

@@ -21,7 +21,6 @@
 #include <vector>
 
 #include "gridcull/core/error.h"
-#include "gridcull/methods/occluder_choice.h"
 #include "gridcull/methods/shadow_walk.h"
 #include "gridcull/methods/shadow_world.h"
 
@@ -45,7 +44,9 @@ class Lap {
 class ShadowFrusta final : public Culler {
  public:
   explicit ShadowFrusta(const ShadowFrustaOptions& options)
-      : options_(options), world_(options.dimension), choice_(static_cast<std::size_t>(options.occluders)) {}
+      : options_(options),
+        world_(options.dimension),
+        choice_(static_cast<std::size_t>(options.occluders), options.weights) {}
 
   const MethodInfo& info() const override { return shadow_frusta_info(); }
   void add(const Object& object) override { world_.add(object); }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "gridcull/core/culler.h"
+#include "gridcull/methods/occluder_choice.h"
 
 namespace gridcull {
 
@@ -11,6 +12,7 @@ struct ShadowFrustaOptions {
   int dimension = 3;
   int occluders = 8;   ///< used at most, each frame and viewer: 1 .. 64
   bool unions = true;  ///< whether two occluders may hide an object together
+  OccluderWeights weights{};
 };
 
 /// Throws Error(usage) for a number of occluders out of range.

@@ -17,6 +17,7 @@ namespace {
 struct Point {
   double x = 0.0, y = 0.0;
   std::string text{};
+  bool missed = false;  ///< somebody was: a hollow mark
 };
 using Curves = std::map<std::string, std::vector<Point>>;  // by name
 
@@ -63,7 +64,7 @@ std::string data_of(const Curves& curves) {
   for (const auto& [name, points] : curves) {
     out += "$curve" + std::to_string(number++) + " << EOD\n";
     for (const Point& p : points) {
-      out += number_text(p.x, 8) + " " + number_text(p.y, 8) + " " + quoted(p.text) + "\n";
+      out += number_text(p.x, 8) + " " + number_text(p.y, 8) + " " + quoted(p.text) + (p.missed ? " 6\n" : " 7\n");
     }
     out += "EOD\n";
   }
@@ -77,7 +78,8 @@ std::string plot_of(const Curves& curves, bool labels) {
   for (const auto& [name, points] : curves) {
     const std::string data = "$curve" + std::to_string(number), style = std::to_string(number + 1);
     if (number++ > 0) out += ", ";
-    out += data + " using 1:2 with linespoints lt " + style + " pt 7 ps 0.7 title " + quoted(name);
+    out += data + " using 1:2 with lines lt " + style + " title " + quoted(name) + ", " + data +
+           " using 1:2:4 with points lt " + style + " pt variable ps 0.8 notitle";
     if (labels) out += ", " + data + " using 1:2:3 with labels offset 0,0.7 tc lt " + style + " notitle";
   }
   return out + "\n";
@@ -124,13 +126,13 @@ void add_accuracy(const BenchSceneResult& result, std::vector<Chart>& out) {
   Curves curves;
   for (const BenchRow& row : result.rows) {
     if (!row.refused.empty() || std::isnan(row.over_estimation()) || row.contender.options.threads != 1) continue;
-    curves[with_misses(result, row)].push_back({median_us(row), row.over_estimation(), row.contender.setting});
+    curves[with_misses(result, row)].push_back({median_us(row), row.over_estimation(), row.contender.setting, row.verdict.misses > 0});
   }
   if (curves.empty()) return;
   // Along a curve the settings go by their time.
   sort_points(curves);
   Axes axes{"Speed against accuracy: " + result.label, "microseconds a frame, moves and query (median)",
-            "over-estimation: reported / visible"};
+            "over-estimation: reported / visible (hollow: misses somebody)"};
   axes.labels = true;
   out.push_back({"accuracy-" + file_name(result.label), script_of(axes, curves)});
 }

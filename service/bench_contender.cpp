@@ -72,6 +72,14 @@ std::vector<Contender> settings_of(const MethodEntry& method, const BenchScene& 
     }
     // Nothing asked for that this method takes: its default.
     if (out.empty()) one.setting = picture ? "128x72" : "auto", out.push_back(one);
+  } else if (takes(method, "--occluders")) {
+    one.setting_name = "occluders";
+    for (const int count : choice.occluders.empty() ? std::vector{1, 2, 4, 8, 16, 32} : choice.occluders) {
+      one.options.occluders = count;
+      one.setting = std::to_string(count);
+      one.is_default = count == MethodOptions{}.occluders;
+      out.push_back(one);
+    }
   } else if (takes(method, "--cell") && !takes_edge(method)) {
     one.setting_name = "cell";
     for (const double cell : cells_of(scene, choice)) {

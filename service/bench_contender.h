@@ -16,6 +16,7 @@ struct BenchChoice {
   std::vector<int> threads{};             ///< 1; 1 and 2 for scenes with many viewers
   std::vector<Resolution> resolutions{};  ///< R for methods that take R, WxH for those that take WxH
   std::vector<double> cells{};            ///< metres; 2, 1 and 1/2 of the scene's
+  std::vector<int> occluders{};           ///< 1 .. 64 each; 1, 2, 4, 8, 16, 32
   std::uint64_t max_memory = MethodOptions{}.max_memory;
   std::vector<std::string> baked{};  ///< files; each is for the method and the world that it names
 };
@@ -23,7 +24,7 @@ struct BenchChoice {
 struct Contender {
   const MethodEntry* method = nullptr;
   MethodOptions options{};
-  std::string setting_name{};  ///< "cell", "resolution" or ""
+  std::string setting_name{};  ///< "cell", "resolution", "occluders" or ""
   std::string setting{};       ///< "2 m", "256", "128x72", "auto"
   bool is_default = true;      ///< the setting used where nobody asks for another
 

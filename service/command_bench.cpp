@@ -57,6 +57,9 @@ void check_choice(BenchOptions& options) {
   for (const double cell : options.choice.cells) {
     if (!(cell > 0.0 && std::isfinite(cell))) throw option_error("--cells", "sizes above 0", number_text(cell));
   }
+  for (const int count : options.choice.occluders) {
+    if (count < 1 || count > 64) throw option_error("--occluders", "1 .. 64", std::to_string(count));
+  }
   std::set<std::string> names;
   for (const std::string& scene : options.scenes) {
     (void)parse_bench_scene(scene);
@@ -182,6 +185,11 @@ void add_options(CLI::App& command, BenchOptions& o) {
                   "metres, for methods whose setting it is (default 2, 1 and 1/2 x the scene's)")
       ->delimiter(',')
       ->type_name("M,M...");
+  command
+      .add_option("--occluders", o.choice.occluders,
+                  "1 .. 64 each, for methods whose setting it is (default 1,2,4,8,16,32)")
+      ->delimiter(',')
+      ->type_name("N,N...");
   command.add_option("--repeats", o.settings.repeats, "times over (default 3)")->type_name("N");
   command.add_option("--frames", o.frames, "of each scene, at most (default 40)")->type_name("N");
   command.add_option("--judge", o.judged, "frames held against the exact sets (default 3, 0: none)")->type_name("N");

@@ -32,6 +32,9 @@ void check_options(const WorldOptions& options) {
   }
   if (!options.resolution.empty()) (void)parse_resolution(options.resolution);
   if (!options.bounds.empty()) (void)parse_bounds(options.bounds);
+  if (options.occluders < 1 || options.occluders > 64) {
+    throw option_error("--occluders", "1 .. 64", std::to_string(options.occluders));
+  }
   if (options.scene == "-" && options.frames == "-") {
     throw Error(ErrorCode::usage, "--frames -: standard input is the scene already");
   }
@@ -83,6 +86,10 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
                       ", in their own axes (default: silhouette in 3D the convex hull of small shapes and the box of "
                       "others, depth-rays the box, frustum the shape itself)")
       ->type_name("KIND");
+  command
+      .add_option("--occluders", options.occluders,
+                  "shadow-frusta: used at most for each frame and viewer, 1 .. 64 (default 8)")
+      ->type_name("N");
   command.add_flag("--pull", options.pull,
                    "the method asks for the positions that it needs, instead of being told all");
 }
@@ -106,6 +113,7 @@ MethodOptions method_options(const WorldOptions& options, const PreparedWorld& w
   method.tbv = options.tbv;
   method.threads = options.threads;
   method.max_memory = options.max_memory;
+  method.occluders = options.occluders;
   return method;
 }
 

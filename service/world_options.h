@@ -34,13 +34,13 @@ struct WorldOptions {
   std::string resolution{};  ///< R or WxH; "": the method's default
   std::string baked{};       ///< file that gridcull bake wrote; "": none
   double view_box = MethodOptions{}.view_box;
-  std::string bounds{};      ///< a name of core/bound_kind.h; "": the method's default
+  std::string bounds{};  ///< a name of core/bound_kind.h; "": the method's default
+  int occluders = MethodOptions{}.occluders;
 };
 
 /// SCENE, --frames, --cell and --max-memory.
 void add_scene_options(CLI::App& command, WorldOptions& options);
-/// --method, --threads, --tbv, --pull, --resolution, --baked and --view-box.
-/// --method, --threads, --tbv, --pull, --resolution and --bounds.
+/// --method, --threads, --tbv, --pull, and the settings of single methods.
 void add_method_options(CLI::App& command, WorldOptions& options);
 
 /// A scene that was read, and the grid for it.
