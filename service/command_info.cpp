@@ -103,6 +103,19 @@ std::string first_frame(const WorldOptions& options, const PreparedWorld& world,
   return memory_text(engine, replay.world().objects().size());
 }
 
+/// What a baked file holds; one of another scene is refused.
+std::string baked_text(const std::string& path, const Scene& scene) {
+  BakedHead head = read_baked_head(path);
+  const MethodEntry& method = find_method(head.method, path);
+  if (method.baking.bake == nullptr)
+    throw Error(ErrorCode::bad_scene, path + ": of " + head.method + ", which does not bake");
+  std::vector<Object> objects;
+  for (const SceneObject& object : scene.objects) objects.push_back(object.object);
+  head.version = method.baking.version;
+  head.world = static_world_hash(objects);
+  return row("baked", path + ", for " + head.method) + method.baking.describe(read_baked(path, head));
+}
+
 int info(const WorldOptions& options) {
   const PreparedWorld world = prepare_world(options, true);
   const int dimension = world.scene.dimension;
@@ -118,6 +131,7 @@ int info(const WorldOptions& options) {
   // Standard input can be read once only.
   if (options.frames != "-") text += first_frame(options, world, Hiding::voxel);
   text += first_frame(options, world, Hiding::silhouette);
+  if (!options.baked.empty()) text += baked_text(options.baked, world.scene);
   std::fputs(text.c_str(), stdout);
   return 0;
 }
@@ -128,6 +142,7 @@ void add_info_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<WorldOptions>();
   CLI::App& command = *app.add_subcommand("info", "What is in a scene, the grid it gets and why, and its memory");
   add_scene_options(command, *options);
+  command.add_option("--baked", options->baked, "say also what this file of gridcull bake holds")->type_name("FILE");
   command.footer(
       "Example:\n"
       "  gridcull make town --out town\n"

@@ -166,9 +166,6 @@ refused "make nowhere" "out" make town
 refused "make with a negative count" "count" make town --out out/t --count -5
 refused "make with a cell of 0" "cell" make town --out out/t --cell 0
 refused "baked for a method that does not bake" "reads no baked file" run s.json --baked x --method voxel "${everything[@]}"
-refused "bake without a method" "one that bakes" bake s.json --out out/x
-refused "bake with one that does not" "does not bake" bake s.json --method voxel --out out/x
-refused "bake static" "bake static" bake static s.json --out out/x.vdb
 refused "standard input twice" "standard input" run - --frames -
 
 finish
