@@ -68,8 +68,9 @@ class FiveDTreeCuller final : public Culler {
   void query(double time, std::span<const View> views, Answers& out) override {
     const auto start = Clock::now();
     FrameStats stats;
-    prepare();
+    load();
     world_.begin_frame(time, views, stats);
+    bake();
     index();
     stats.discretise_us = microseconds_since(start);
     out.views.resize(views.size());
@@ -79,28 +80,48 @@ class FiveDTreeCuller final : public Culler {
   }
 
  private:
-  /// The tree, before the first query.
-  void prepare() {
-    if (is_ready_) return;
-    std::vector<Object> objects;
+  struct Contents {
+    std::vector<Object> objects{};
     std::uint64_t statics = 0;
     bool occludes = false;
+  };
+  Contents contents() const {
+    Contents out;
     for (const FlatObject& flat : world_.objects()) {
-      objects.push_back(flat.object);
+      out.objects.push_back(flat.object);
       if (!flat.object.is_static) continue;
-      ++statics;
-      occludes = occludes || flat.object.occluder;
+      ++out.statics;
+      out.occludes = out.occludes || flat.object.occluder;
     }
-    if (!options_.baked.empty()) {
-      const BakedHead head{std::string(five_d_tree_info().name), five_d_version, static_world_hash(objects)};
-      baked_ = read_five_d_payload(read_baked(options_.baked, head), options_.baked);
-      const bool fits = baked_.space.dimension == options_.dimension && baked_.space.statics == statics;
-      if (!fits) throw Error(ErrorCode::bad_scene, options_.baked + ": altered: its members are not the scene's");
-    } else if (occludes) {
-      baked_ = *bake_five_d(objects, options_.dimension, options_.bounds, small_bake(statics, options_.threads), {},
-                            nullptr);
+    return out;
+  }
+
+  /// The tree from its file, before the first query changes anything: it may be refused.
+  void load() {
+    if (is_ready_ || options_.baked.empty()) return;
+    const Contents now = contents();
+    const BakedHead head{std::string(five_d_tree_info().name), five_d_version, static_world_hash(now.objects)};
+    FiveDBaked baked = read_five_d_payload(read_baked(options_.baked, head), options_.baked);
+    if (baked.space.dimension != options_.dimension || baked.space.statics != now.statics) {
+      throw Error(ErrorCode::bad_scene, options_.baked + ": altered: its members are not the scene's");
     }
-    has_tree_ = occludes && !baked_.tree.nodes.empty();
+    baked_ = std::move(baked);
+    use_tree(now.occludes);
+  }
+
+  /// Without a file, once the first query's poses are known, pushed or pulled: they tell where something moves.
+  void bake() {
+    if (is_ready_) return;
+    const Contents now = contents();
+    if (now.occludes) {
+      const FiveDOptions options = small_bake(now.statics, options_.threads);
+      baked_ = *bake_five_d(now.objects, options_.dimension, options_.bounds, options, {}, nullptr);
+    }
+    use_tree(now.occludes);
+  }
+
+  void use_tree(bool occludes) {
+    has_tree_ = occludes;
     static_version_ = world_.static_version();
     members_.resize(baked_.space.words());
     is_ready_ = true;

@@ -139,15 +139,28 @@ class Listener final : public BakeListener {
   Progress bar_{"thousandths", whole};
 };
 
-int bake(const BakeOptions& options) {
+/// The payload. Throws Stopped on Ctrl-C, once FILE.part is written.
+std::vector<std::byte> work(const MethodEntry& method, std::span<const Object> objects, const MethodOptions& options,
+                            const Unfinished& unfinished, std::span<const std::byte> state) {
+  Listener listener(unfinished);
+  auto payload = method.baking.bake(objects, options, state, listener);
+  if (!payload) throw Stopped{unfinished.path() + " holds the work so far, and the same command goes on from it"};
+  return std::move(*payload);
+}
+
+void check_command_line(const BakeOptions& options) {
   if (options.world.scene == "static") {
     throw Error(ErrorCode::usage, "bake static: static volumes cannot be baked yet; expected bake --method M SCENE");
   }
   if (!options.more.empty()) throw Error(ErrorCode::usage, "bake: expected one scene, found also " + options.more);
-  const MethodEntry& method = find_baker(options.world);
-  const BakeSettings settings = choose_settings(options, method);
   if (options.out.empty()) throw Error(ErrorCode::usage, "--out is required");
   check_folder(options.out);
+}
+
+int bake(const BakeOptions& options) {
+  check_command_line(options);
+  const MethodEntry& method = find_baker(options.world);
+  const BakeSettings settings = choose_settings(options, method);
   const PreparedWorld world = prepare_world(options.world);
   MethodOptions chosen = method_options(options.world, world);
   chosen.bake = settings;
@@ -159,21 +172,16 @@ int bake(const BakeOptions& options) {
   const std::vector<std::byte> state = unfinished.read();
 
   const auto start = std::chrono::steady_clock::now();
-  std::optional<std::vector<std::byte>> payload;
-  {
-    Listener listener(unfinished);
-    payload = method.baking.bake(objects, chosen, state, listener);
-  }
-  if (!payload) throw Stopped{unfinished.path() + " holds the work so far, and the same command goes on from it"};
+  const std::vector<std::byte> payload = work(method, objects, chosen, unfinished, state);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  write_baked(options.out, head, *payload);
+  write_baked(options.out, head, payload);
   unfinished.remove();
   std::string text = row("scene", options.world.scene) + row("method", options.world.method) +
                      row("file", options.out + ", " + bytes_text(static_cast<double>(fs::file_size(options.out)))) +
                      row("time", number_text(seconds, 3) + " s, " +
                                      counted(static_cast<unsigned long long>(options.world.threads), "thread") +
                                      (state.empty() ? "" : ", gone on from " + unfinished.path()));
-  std::fputs((text + method.baking.describe(*payload)).c_str(), stdout);
+  std::fputs((text + method.baking.describe(payload)).c_str(), stdout);
   return 0;
 }
 
