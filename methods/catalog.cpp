@@ -5,6 +5,7 @@
 #include "gridcull/core/error.h"
 #include "gridcull/grid/engine.h"
 #include "gridcull/methods/depth_rays.h"
+#include "gridcull/methods/extended_bake.h"
 #include "gridcull/methods/extended_projections.h"
 #include "gridcull/methods/five_d_bake.h"
 #include "gridcull/methods/five_d_tree.h"
@@ -68,8 +69,21 @@ std::optional<std::vector<std::byte>> bake_five_d_tree(std::span<const Object> o
 Baking five_d_baking() { return {five_d_version, five_d_settings(), &bake_five_d_tree, &describe_five_d}; }
 
 std::unique_ptr<Culler> make_extended(const MethodOptions& o) {
-  return make_extended_projections(
-      {.bounds = o.bounds, .cell = o.cell, .resolution = o.resolution, .threads = o.threads});
+  return make_extended_projections({.bounds = o.bounds,
+                                    .cell = o.cell,
+                                    .resolution = o.resolution,
+                                    .threads = o.threads,
+                                    .baked = o.baked,
+                                    .max_memory = o.max_memory / 4});
+}
+
+std::optional<std::vector<std::byte>> bake_extended(std::span<const Object> objects, const MethodOptions& o,
+                                                    std::span<const std::byte> resume, BakeListener& listener) {
+  return bake_extended_projections(objects, {o.bounds, o.cell, o.threads, o.bake}, resume, listener);
+}
+
+Baking extended_baking() {
+  return {extended_baked_version, extended_bake_settings(), &bake_extended, &describe_extended_projections};
 }
 
 }  // namespace
@@ -86,7 +100,8 @@ std::span<const MethodEntry> method_catalog() {
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
       MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72), --bounds KIND", &make_depth},
       MethodEntry{five_d_tree_info(), "--baked FILE, --view-box METRES", &make_five_d, five_d_baking()},
-      MethodEntry{extended_projections_info(), "--resolution R, --cell C, --threads N", &make_extended}};
+      MethodEntry{extended_projections_info(), "--resolution R, --cell C, --threads N, --baked FILE", &make_extended,
+                  extended_baking()}};
   return entries;
 }
 

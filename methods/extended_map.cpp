@@ -92,31 +92,19 @@ bool DepthMap::all_before(std::size_t level, int x, int y, const PixelRange& ran
   return true;
 }
 
-bool DepthMap::none_covered(std::size_t level, int x, int y, const PixelRange& range, std::uint64_t& read) const {
-  if (x >= levels_[level].size || y >= levels_[level].size) return true;
-  const Place place(level, x, y, range);
-  if (place.beside) return true;
-  ++read;
-  const std::size_t i = index(level, x, y);
-  if ((level == 0 ? farthest_[i] : nearest_[i]) == uncovered) return true;
-  if (level == 0 || place.inside) return false;
-  for (const int k : {0, 1, 2, 3}) {
-    if (!none_covered(level - 1, 2 * x + (k & 1), 2 * y + (k >> 1), range, read)) return false;
-  }
-  return true;
-}
-
+/// `none` is judged on the few coarse pixels about the range: it ends searches, and a search more is no fault.
 Cover DepthMap::look(const PixelRange& range, float depth, std::uint64_t& looked_at) const {
   const std::size_t level = start_level(range, levels_.size());
   bool all = true, none = true;
   for (int y = range.bottom >> level; y <= range.top >> level; ++y) {
     for (int x = range.left >> level; x <= range.right >> level; ++x) {
+      const std::size_t i = index(level, x, y);
+      none = none && (level == 0 ? farthest_[i] : nearest_[i]) == uncovered;
       all = all && all_before(level, x, y, range, depth, looked_at);
-      none = none && !all && none_covered(level, x, y, range, looked_at);
       if (!all && !none) return Cover::some;
     }
   }
-  return all ? Cover::all : none ? Cover::none : Cover::some;
+  return all ? Cover::all : Cover::none;
 }
 
 }  // namespace gridcull::extended

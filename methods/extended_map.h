@@ -51,7 +51,6 @@ class DepthMap {
     return l.start + static_cast<std::size_t>(y) * static_cast<std::size_t>(l.size) + static_cast<std::size_t>(x);
   }
   bool all_before(std::size_t level, int x, int y, const PixelRange& range, float depth, std::uint64_t& read) const;
-  bool none_covered(std::size_t level, int x, int y, const PixelRange& range, std::uint64_t& read) const;
 
   int size_ = 0;
   std::vector<Level> levels_{};

@@ -1,12 +1,15 @@
-// Viewers' cells are looked out of on demand, those of a lattice, and kept while the static world stays as it is:
-// a viewer that stays in a cell costs a look-up (section 6.2). What is told:
+// Without a baked file viewers' cells are looked out of on demand, those of a lattice, and kept while the static world
+// stays as it is: a viewer that stays in a cell costs a look-up (section 6.2). What is told:
 // - static objects: the cell's potentially visible set, cut to the view volume;
-// - moving objects: their current box, tested against the cell's maps. The paper tests fixed regions in advance
-//   (roads) because its maps are gone at run time; ours are there, and a car is smaller than its road.
+// - moving objects: their current box, tested against the cell's maps, or, baked, the motion regions that it touches.
+//   The paper tests fixed regions in advance (roads) because its maps are gone at run time; on demand ours are there,
+//   and a car is smaller than its road.
 //
 // What a view needs beyond its cell (core/culler.h): the object that it rides on, and one whose interior holds it, hide
 // nothing from it. Where the cell's maps rest on such an occluder, a cell without it is looked out of; where on two
-// or more, the view volume alone answers. Objects that meet the cell, holders among them, are never hidden.
+// or more, or where the cell is a baked one, the view volume alone answers. Objects that meet the cell, holders among
+// them, are never hidden. A viewer outside all baked cells gets the view volume's answer. Once a static object is
+// added, removed or moved after the first frame the baked sets are out of date, and cells are looked out of on demand.
 #include "gridcull/methods/extended_projections.h"
 
 #include <algorithm>
@@ -15,6 +18,10 @@
 #include <vector>
 
 #include "gridcull/core/error.h"
+#include "gridcull/methods/baking.h"
+#include "gridcull/methods/bytes.h"
+#include "gridcull/methods/extended_bake.h"
+#include "gridcull/methods/extended_baked.h"
 #include "gridcull/methods/extended_cache.h"
 #include "gridcull/methods/flat_world.h"
 #include "gridcull/methods/view_test.h"
@@ -42,7 +49,10 @@ extended::CellSettings settings_of(const ExtendedOptions& o) {
 class ExtendedProjections final : public Culler {
  public:
   explicit ExtendedProjections(const ExtendedOptions& o)
-      : settings_(settings_of(o)), world_(3), cells_(o.bounds, o.cell, settings_, o.max_memory, o.threads) {}
+      : settings_(settings_of(o)),
+        world_(3),
+        cells_(o.bounds, o.cell, settings_, o.max_memory, o.threads),
+        baked_file_(o.baked) {}
 
   const MethodInfo& info() const override { return extended_projections_info(); }
   void add(const Object& object) override { world_.add(object); }
@@ -54,15 +64,15 @@ class ExtendedProjections final : public Culler {
   void query(double time, std::span<const View> views, Answers& out) override {
     const auto start = Clock::now();
     FrameStats stats;
+    refresh();  // first: a baked file that is refused leaves the frame unanswered and everything as it was
     world_.begin_frame(time, views, stats);
-    refresh();
     stats.discretise_us = microseconds_since(start);
     const auto looking = Clock::now();
-    find_cells(views);
+    baked_ ? find_leaves(views) : find_cells(views);
     stats.occlude_us = microseconds_since(looking);
     const auto collecting = Clock::now();
     out.views.resize(views.size());
-    for (std::size_t i = 0; i < views.size(); ++i) answer(views[i], keys_[i], out.views[i]);
+    for (std::size_t i = 0; i < views.size(); ++i) answer(views[i], i, out.views[i]);
     cells_.trim();
     stats.collect_us = microseconds_since(collecting);
     stats.total_us = microseconds_since(start);
@@ -77,6 +87,8 @@ class ExtendedProjections final : public Culler {
       for (const FlatObject& flat : world_.objects()) objects.push_back(&flat.object);
       scene_ = extended::make_static_scene(objects, extended::least_angle(settings_.resolution));
       cells_.reset(scene_);
+      baked_.reset();
+      if (static_version_ == 0 && !baked_file_.empty()) load();
     }
     if (set_version_ != world_.set_version()) {
       movers_.clear();
@@ -86,6 +98,38 @@ class ExtendedProjections final : public Culler {
     }
     static_version_ = world_.static_version();
     set_version_ = world_.set_version();
+  }
+
+  void load() {
+    std::vector<Object> objects;
+    for (const FlatObject& flat : world_.objects()) objects.push_back(flat.object);
+    const BakedHead head{std::string(info().name), extended_baked_version, static_world_hash(objects)};
+    const std::vector<std::byte> payload = read_baked(baked_file_, head);
+    ByteReader in(payload, baked_file_);
+    auto baked = std::make_unique<extended::BakedCells>(in);
+    in.finish();
+    if (baked->objects() != scene_.occludees.size()) in.refuse("altered: baked from another number of objects");
+    baked_ = std::move(baked);
+    leaves_.clear();
+  }
+
+  /// A leaf for each view, in leaves_; views keep their places from frame to frame, mostly, and so do decoded sets.
+  void find_leaves(std::span<const View> views) {
+    if (leaves_.size() < views.size()) leaves_.resize(views.size());
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      Leaf& leaf = leaves_[i];
+      const auto found = baked_->find(views[i].pose.position);
+      leaf.good = found.has_value();
+      if (!found) continue;
+      if (leaf.name != *found) baked_->decode(*found, leaf.set);
+      leaf.name = *found;
+      const std::uint32_t ridden = views[i].rides == no_id ? FlatWorld::nowhere : world_.find(views[i].rides);
+      leaf.good = ridden == FlatWorld::nowhere || !world_.objects()[ridden].object.is_static;
+      for (const std::uint32_t place : leaf.set.touching) {
+        const Object& object = world_.objects()[world_.find(scene_.occludees[place].id)].object;
+        if (interior_holds(object.shape, object.pose, views[i].pose.position)) leaf.good = false;
+      }
+    }
   }
 
   /// A cell for each view, in keys_; nothing where none will do.
@@ -123,43 +167,73 @@ class ExtendedProjections final : public Culler {
     return no_id;
   }
 
-  void answer(const View& view, const std::optional<CellKey>& key, Answer& answer) const {
+  void answer(const View& view, std::size_t place, Answer& answer) const {
     answer.viewer = view.viewer;
     answer.visible.clear();
     answer.work = {};
     const ViewTest test(view, 3);
-    const auto look = [&](const FlatObject& flat) {
-      ++answer.work.object_tests;
-      return flat.object.id != view.rides &&
-             (test.may_touch(flat) || interior_holds(flat.object.shape, flat.object.pose, view.pose.position));
-    };
-    if (!key) {
-      for (const FlatObject& flat : world_.objects()) {
-        if (look(flat)) answer.visible.push_back(flat.object.id);
-      }
+    if (baked_ ? !leaves_[place].good : !keys_[place]) {
+      for (const FlatObject& flat : world_.objects()) tell(view, test, flat, answer);
+    } else if (baked_) {
+      tell_leaf(view, test, leaves_[place].set, answer);
     } else {
-      const CellView& cell = cells_.at(*key);
-      answer.work.occluders = cell.used.size();
-      answer.work.rasters = cell.drawn;
-      for (const std::uint32_t i : cell.visible) {
-        const FlatObject& flat = world_.objects()[world_.find(scene_.occludees[i].id)];
-        if (look(flat)) answer.visible.push_back(flat.object.id);
-      }
-      for (const std::uint32_t i : movers_) {
-        const FlatObject& flat = world_.objects()[i];
-        if (!look(flat)) continue;
-        const Bounds box = extended::box_in(cell.outlooks.cell, flat.box);
-        if (!cell.outlooks.hides(box, mover_halvings, answer.work.cells_visited))
-          answer.visible.push_back(flat.object.id);
-      }
+      tell_cell(view, test, cells_.at(*keys_[place]), answer);
     }
     std::sort(answer.visible.begin(), answer.visible.end());
   }
+
+  bool in_view(const View& view, const ViewTest& test, const FlatObject& flat, Answer& answer) const {
+    ++answer.work.object_tests;
+    return flat.object.id != view.rides &&
+           (test.may_touch(flat) || interior_holds(flat.object.shape, flat.object.pose, view.pose.position));
+  }
+  void tell(const View& view, const ViewTest& test, const FlatObject& flat, Answer& answer) const {
+    if (in_view(view, test, flat, answer)) answer.visible.push_back(flat.object.id);
+  }
+  const FlatObject& static_object(std::uint32_t place) const {
+    return world_.objects()[world_.find(scene_.occludees[place].id)];
+  }
+
+  void tell_cell(const View& view, const ViewTest& test, const CellView& cell, Answer& answer) const {
+    answer.work.occluders = cell.used.size();
+    answer.work.rasters = cell.drawn;
+    for (const std::uint32_t i : cell.visible) tell(view, test, static_object(i), answer);
+    for (const std::uint32_t i : movers_) {
+      const FlatObject& flat = world_.objects()[i];
+      if (!in_view(view, test, flat, answer)) continue;
+      const Bounds box = extended::box_in(cell.outlooks.cell, flat.box);
+      if (!cell.outlooks.hides(box, mover_halvings, answer.work.cells_visited))
+        answer.visible.push_back(flat.object.id);
+    }
+  }
+
+  void tell_leaf(const View& view, const ViewTest& test, const extended::LeafSet& set, Answer& answer) const {
+    const auto first_region = std::lower_bound(set.visible.begin(), set.visible.end(), baked_->objects());
+    for (auto i = set.visible.begin(); i != first_region; ++i) tell(view, test, static_object(*i), answer);
+    const auto seen = [&](std::uint32_t region) {
+      ++answer.work.cells_visited;
+      return std::binary_search(first_region, set.visible.end(), baked_->objects() + region);
+    };
+    for (const std::uint32_t i : movers_) {
+      const FlatObject& flat = world_.objects()[i];
+      if (in_view(view, test, flat, answer) && baked_->regions().any(flat.box, seen))
+        answer.visible.push_back(flat.object.id);
+    }
+  }
+
+  struct Leaf {
+    bool good = false;  ///< it answers for this view
+    std::uint32_t name = no_id;
+    extended::LeafSet set{};
+  };
 
   extended::CellSettings settings_;
   FlatWorld world_;
   extended::StaticScene scene_{};
   extended::CellCache cells_;
+  std::string baked_file_;
+  std::unique_ptr<extended::BakedCells> baked_{};
+  std::vector<Leaf> leaves_{};
   std::vector<std::uint32_t> movers_{};  ///< places in world_
   std::vector<std::optional<CellKey>> keys_{};
   std::vector<CellKey> needed_{};

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/culler.h"
@@ -11,10 +12,11 @@
 namespace gridcull {
 
 struct ExtendedOptions {
-  Bounds bounds{};     ///< of the world; the lattice of viewing cells starts at its lower corner
-  double cell = 1.0;   ///< edge of a viewing cell, metres, > 0
-  int resolution = 0;  ///< pixels along a depth map's side, 8 .. 8192; 0: 256
-  int threads = 1;     ///< 1 .. 256
+  Bounds bounds{};      ///< of the world; the lattice of viewing cells starts at its lower corner
+  double cell = 1.0;    ///< edge of a viewing cell, metres, > 0
+  int resolution = 0;   ///< pixels along a depth map's side, 8 .. 8192; 0: 256
+  int threads = 1;      ///< 1 .. 256
+  std::string baked{};  ///< file of `gridcull bake`, read at the first frame; "": cells are looked out of on demand
   std::uint64_t max_memory = std::uint64_t{1} << 30;  ///< bytes of depth maps kept for cells that were visited
 };
 

@@ -227,12 +227,12 @@ void CellLooker::test_tree(std::uint32_t node, CellView& out) {
     return;
   }
   for (const std::uint32_t i : items) {
-    if (!out.outlooks.hides(box_in(out.outlooks.cell, scene_.occludees[i]), settings_.halvings, ignored))
-      out.visible.push_back(i);
+    if (!out.outlooks.hides(box_in(out.outlooks.cell, scene_.occludees[i]), 0, ignored)) out.visible.push_back(i);
   }
 }
 
-void CellLooker::test(const std::vector<std::uint32_t>* candidates, CellView& out) {
+/// `closely`: in halves too. Motion regions are small and many, so they are halved once at most.
+void CellLooker::test(const std::vector<std::uint32_t>* candidates, bool closely, CellView& out) {
   if (candidates == nullptr) {
     if (!scene_.occludees.empty()) test_tree(0, out);
     std::sort(out.visible.begin(), out.visible.end());
@@ -240,8 +240,9 @@ void CellLooker::test(const std::vector<std::uint32_t>* candidates, CellView& ou
   }
   std::uint64_t ignored = 0;
   for (const std::uint32_t i : *candidates) {
-    if (!out.outlooks.hides(box_in(out.outlooks.cell, scene_.occludees[i]), settings_.halvings, ignored))
-      out.visible.push_back(i);
+    const Occludee& occludee = scene_.occludees[i];
+    const int halvings = !closely ? 0 : occludee.id == no_id ? std::min(1, settings_.halvings) : settings_.halvings;
+    if (!out.outlooks.hides(box_in(out.outlooks.cell, occludee), halvings, ignored)) out.visible.push_back(i);
   }
 }
 
@@ -292,12 +293,12 @@ void CellLooker::look(const ViewCell& cell, ObjectId without, const std::vector<
   out.drawn = 0;
   find_candidates(cell, without, candidates);
   draw_directions(cell, out);
-  test(candidates, out);
+  test(candidates, false, out);
   draw_more(cell, out);
   sweep(out);
   const std::vector<std::uint32_t> before = std::move(out.visible);
   out.visible.clear();
-  test(&before, out);
+  test(&before, true, out);
   for (auto* ids : {&out.used, &out.touching}) {
     std::sort(ids->begin(), ids->end());
     ids->erase(std::unique(ids->begin(), ids->end()), ids->end());

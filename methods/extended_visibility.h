@@ -61,7 +61,7 @@ class CellLooker {
                           std::span<const std::uint32_t> chosen);
   bool draw(Outlook& outlook, const ViewCell& cell, std::uint32_t candidate, CellView& out);
   std::span<const Polytope> local(const ViewCell& cell, std::uint32_t candidate);
-  void test(const std::vector<std::uint32_t>* candidates, CellView& out);
+  void test(const std::vector<std::uint32_t>* candidates, bool closely, CellView& out);
   void test_tree(std::uint32_t node, CellView& out);
   void draw_more(const ViewCell& cell, CellView& out);
   void sweep(CellView& out);
