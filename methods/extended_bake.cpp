@@ -32,7 +32,7 @@ constexpr std::array settings{
     BakeSetting{"halvings", "how often a cell may be halved", 2.0, 0.0, 8.0, true},
     BakeSetting{"budget", "a cell that sees no more static objects and motion regions is not halved", 50.0, 0.0, 1e9,
                 true},
-    BakeSetting{"ceiling", "viewers stand at most this many metres above the world's floor", 1e9, 0.0, 1e9, false},
+    BakeSetting{"ceiling", "viewers stand at most this many metres above the floor", 1e9, 0.0, 1e9, false},
     BakeSetting{"region", "edge of a motion region, in cells of the lattice", 2.0, 1e-3, 1e6, false},
     BakeSetting{"map", "pixels along a depth map's side", 128.0, 8.0, 4096.0, true},
     BakeSetting{"planes", "projection planes in each of six directions", 4.0, 1.0, 16.0, true},
@@ -47,14 +47,15 @@ double value_of(const ExtendedBakeOptions& options, std::string_view name) {
   return bake_setting(options.settings, *found);
 }
 
-CellLattice choose_lattice(const ExtendedBakeOptions& options) {
+CellLattice choose_lattice(const ExtendedBakeOptions& options, double floor) {
   CellLattice out;
   out.origin = options.bounds.min;
+  out.origin.z = std::max(out.origin.z, floor);
   out.levels = static_cast<std::uint32_t>(value_of(options, "halvings"));
   const double largest = value_of(options, "largest-cell") * options.cell;
   out.step = std::ldexp(largest, -static_cast<int>(out.levels));
   Vec3 size = options.bounds.size();
-  size.z = std::min(size.z, value_of(options, "ceiling"));
+  size.z = std::clamp(options.bounds.max.z - out.origin.z, 0.0, value_of(options, "ceiling"));
   double all = 1.0;
   for (int k = 0; k < 3; ++k) {
     const double n = std::max(1.0, std::ceil(size[k] / largest - 1e-9));
@@ -103,14 +104,15 @@ bool is_inside(const ViewCell& cell, const Occluder& occluder) {
 class Bake {
  public:
   Bake(std::span<const Object> objects, const ExtendedBakeOptions& options)
-      : lattice_(choose_lattice(options)),
-        regions_(choose_regions(objects, options.bounds, value_of(options, "region") * options.cell, most_regions)),
-        settings_(cell_settings(options)),
+      : settings_(cell_settings(options)),
         budget_(static_cast<std::size_t>(value_of(options, "budget"))),
         arena_(std::clamp(options.threads, 1, tbb::info::default_concurrency())) {
     std::vector<const Object*> pointers;
     for (const Object& object : objects) pointers.push_back(&object);
     scene_ = make_static_scene(pointers, least_angle(settings_.resolution));
+    lattice_ = choose_lattice(options, scene_.floor.height);
+    regions_ = choose_regions(objects, options.bounds, value_of(options, "region") * options.cell, scene_.floor.height,
+                              most_regions);
     objects_ = static_cast<std::uint32_t>(scene_.occludees.size());
     for (std::uint32_t i = 0; i < regions_.size(); ++i) {
       scene_.occludees.push_back(region_occludee(regions_.box(i)));
@@ -155,7 +157,7 @@ class Bake {
       return;
     }
     CellView view;
-    looker.look(cell, no_id, parent, view);
+    looker.look(cell, true, no_id, parent, view);
     if (level == lattice_.levels || view.visible.size() <= budget_) {
       out.nodes.push_back(NodeKind::leaf);
       LeafSet& leaf = out.leaves.emplace_back();
@@ -202,8 +204,8 @@ class Bake {
     return roots;
   }
 
-  CellLattice lattice_;
-  MotionRegions regions_;
+  CellLattice lattice_{};
+  MotionRegions regions_{};
   CellSettings settings_;
   std::size_t budget_;
   mutable tbb::task_arena arena_;

@@ -20,6 +20,7 @@ CellCache::CellCache(const Bounds& bounds, double edge, const CellSettings& sett
 
 void CellCache::reset(const StaticScene& scene) {
   cells_.clear();
+  floor_ = scene.floor.height;
   for (auto& looker : lookers_) looker = std::make_unique<CellLooker>(scene, settings_);
 }
 
@@ -28,9 +29,11 @@ ViewCell CellCache::cell_of(const CellKey& key) const {
   ViewCell cell;
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<double>(key.at[static_cast<std::size_t>(k)]);
-    const double low = origin_[k] + i * edge_, high = origin_[k] + (i + 1.0) * edge_;
+    double low = origin_[k] + i * edge_, high = origin_[k] + (i + 1.0) * edge_;
+    if (k == 2) key.below ? high = std::min(high, floor_) : low = std::max(low, floor_);
     cell.centre[k] = 0.5 * (low + high);
-    cell.half[k] = 0.5 * edge_ * (1.0 + 1e-12) + 2e-15 * (std::fabs(low) + std::fabs(high) + std::fabs(origin_[k]));
+    cell.half[k] =
+        0.5 * (high - low) * (1.0 + 1e-12) + 2e-15 * (std::fabs(low) + std::fabs(high) + std::fabs(origin_[k]));
   }
   return cell;
 }
@@ -42,6 +45,7 @@ std::optional<CellKey> CellCache::key_of(const Vec3& point) const {
     if (!(std::fabs(i) < 1e12)) return std::nullopt;
     key.at[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(i);
   }
+  key.below = point.z < floor_;
   if (!holds(cell_of(key), point)) return std::nullopt;
   return key;
 }
@@ -58,7 +62,7 @@ void CellCache::need(std::vector<CellKey>& keys) {
   }
   const auto look = [this](std::size_t i, CellLooker& looker) {
     const auto [key, view] = missing_[i];
-    looker.look(cell_of(*key), key->without, nullptr, *view);
+    looker.look(cell_of(*key), !key->below, key->without, nullptr, *view);
   };
   if (missing_.size() < 2 || lookers_.size() == 1) {
     for (std::size_t i = 0; i < missing_.size(); ++i) look(i, *lookers_[0]);

@@ -16,9 +16,10 @@
 
 namespace gridcull::extended {
 
-/// A lattice cell, and an occluder that does not count for it (no_id: all count).
+/// A lattice cell, or its part below the scene's floor, and an occluder that does not count for it (no_id: all count).
 struct CellKey {
   std::array<std::int64_t, 3> at{};
+  bool below = false;
   ObjectId without = no_id;
   auto operator<=>(const CellKey&) const = default;
 };
@@ -47,6 +48,7 @@ class CellCache {
     std::uint64_t used = 0;  ///< the need() that asked last
   };
   Vec3 origin_{0.0};
+  double floor_ = 0.0;
   double edge_;
   CellSettings settings_;
   std::uint64_t max_bytes_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "gridcull/methods/extended_cell.h"
@@ -20,6 +21,7 @@ struct Outlook {
 /// Out of one cell in all directions.
 struct Outlooks {
   ViewCell cell{};
+  double floor = -std::numeric_limits<double>::infinity();  ///< z: what reaches below it is not judged, so not hidden
   std::vector<Outlook> planes{};
 
   /// `box`: in the cell's axes, grown by its error. `all`: hidden from the whole cell by one plane's map. `none`: no

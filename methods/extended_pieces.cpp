@@ -264,6 +264,10 @@ Occluder make_occluder(const Object& object) {
   for (const Piece& piece : out.pieces) {
     for (const Vec3& p : piece.polytope.points) out.box.add(p);
   }
+  // Exactly vertical: then upper and lower points have the same x and y, bit for bit.
+  const bool straight = r.z.x == 0.0 && r.z.y == 0.0 && r.x.z == 0.0 && r.y.z == 0.0;
+  out.upright =
+      straight && (std::holds_alternative<Cuboid>(object.shape) || std::holds_alternative<Prism>(object.shape));
   return out;
 }
 

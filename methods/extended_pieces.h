@@ -21,6 +21,7 @@ struct Occluder {
   bool thin = false;  ///< holds no viewer
   double blur = 0.0;  ///< metres: roundings on the way from the shape's numbers to these points
   Bounds box{};
+  bool upright = false;  ///< a box or prism whose sides are vertical: its lowest points are its base
   std::vector<Piece> pieces{};
   // Its pieces and these hold all of its interior, and maybe more: where a viewpoint may be inside it.
   double ball = 0.0;  ///< radius about the box's centre; 0: none

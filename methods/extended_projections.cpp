@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/world_points.h"
 #include "gridcull/methods/baking.h"
 #include "gridcull/methods/bytes.h"
 #include "gridcull/methods/extended_bake.h"
@@ -119,12 +120,12 @@ class ExtendedProjections final : public Culler {
     for (std::size_t i = 0; i < views.size(); ++i) {
       Leaf& leaf = leaves_[i];
       const auto found = baked_->find(views[i].pose.position);
-      leaf.good = found.has_value();
+      leaf.good = found && views[i].pose.position.z >= scene_.floor.height;
       if (!found) continue;
       if (leaf.name != *found) baked_->decode(*found, leaf.set);
       leaf.name = *found;
       const std::uint32_t ridden = views[i].rides == no_id ? FlatWorld::nowhere : world_.find(views[i].rides);
-      leaf.good = ridden == FlatWorld::nowhere || !world_.objects()[ridden].object.is_static;
+      if (ridden != FlatWorld::nowhere && world_.objects()[ridden].object.is_static) leaf.good = false;
       for (const std::uint32_t place : leaf.set.touching) {
         const Object& object = world_.objects()[world_.find(scene_.occludees[place].id)].object;
         if (interior_holds(object.shape, object.pose, views[i].pose.position)) leaf.good = false;
@@ -194,6 +195,17 @@ class ExtendedProjections final : public Culler {
     return world_.objects()[world_.find(scene_.occludees[place].id)];
   }
 
+  /// Not grown as FlatObject's: whether it stands on the floor is judged to the last bit.
+  static Bounds world_box(const FlatObject& flat) {
+    Bounds box;
+    if (const auto* sphere = std::get_if<Sphere>(&flat.object.shape)) {
+      box.add_ball(flat.object.pose.position, sphere->radius);
+    } else {
+      for_each_world_point(flat.object.shape, flat.object.pose, [&box](const Vec3& p) { box.add(p); });
+    }
+    return box;
+  }
+
   void tell_cell(const View& view, const ViewTest& test, const CellView& cell, Answer& answer) const {
     answer.work.occluders = cell.used.size();
     answer.work.rasters = cell.drawn;
@@ -201,8 +213,8 @@ class ExtendedProjections final : public Culler {
     for (const std::uint32_t i : movers_) {
       const FlatObject& flat = world_.objects()[i];
       if (!in_view(view, test, flat, answer)) continue;
-      const Bounds box = extended::box_in(cell.outlooks.cell, flat.box);
-      if (!cell.outlooks.hides(box, mover_halvings, answer.work.cells_visited))
+      const Bounds world = world_box(flat), box = extended::box_in(cell.outlooks.cell, world);
+      if (world.min.z < cell.outlooks.floor || !cell.outlooks.hides(box, mover_halvings, answer.work.cells_visited))
         answer.visible.push_back(flat.object.id);
     }
   }
@@ -216,8 +228,9 @@ class ExtendedProjections final : public Culler {
     };
     for (const std::uint32_t i : movers_) {
       const FlatObject& flat = world_.objects()[i];
-      if (in_view(view, test, flat, answer) && baked_->regions().any(flat.box, seen))
-        answer.visible.push_back(flat.object.id);
+      if (!in_view(view, test, flat, answer)) continue;
+      const Bounds box = world_box(flat);
+      if (box.min.z < scene_.floor.height || baked_->regions().any(box, seen)) answer.visible.push_back(flat.object.id);
     }
   }
 

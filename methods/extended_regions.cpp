@@ -16,10 +16,12 @@ Bounds MotionRegions::box(std::uint32_t region) const {
     out.min[k] = origin[k] + (i - 2e-6) * edge[k];
     out.max[k] = origin[k] + (i + 1.0 + 2e-6) * edge[k];
   }
+  out.min.z = std::max(out.min.z, origin.z);  // nothing that any() asks about reaches below
   return out;
 }
 
-MotionRegions choose_regions(std::span<const Object> objects, const Bounds& world, double edge, std::uint32_t most) {
+MotionRegions choose_regions(std::span<const Object> objects, const Bounds& world, double edge, double floor,
+                             std::uint32_t most) {
   Bounds heights;
   for (const Object& object : objects) {
     if (object.is_static) continue;
@@ -33,8 +35,9 @@ MotionRegions choose_regions(std::span<const Object> objects, const Bounds& worl
   low.z = heights.min.z;
   size.z = heights.size().z;
   // A tenth more each way: movers bob.
-  low.z -= 0.1 * size.z;
-  size.z *= 1.2;
+  const double top = heights.max.z + 0.1 * size.z;
+  low.z = std::max(low.z - 0.1 * size.z, floor);
+  size.z = std::max(top - low.z, 0.0);
   out.origin = low;
   for (;; edge *= 1.25) {
     double boxes = 1.0;

@@ -1,6 +1,7 @@
 // Motion regions: where moving occludees may be (paper section 6.2; the paper's are a city's roads).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -25,9 +26,10 @@ struct MotionRegions {
   bool any(const Bounds& box, const See& see) const;
 };
 
-/// Boxes of about `edge` metres over `world` (x and y) and the heights of the moving objects. No more than `most`
-/// boxes: they grow instead.
-MotionRegions choose_regions(std::span<const Object> objects, const Bounds& world, double edge, std::uint32_t most);
+/// Boxes of about `edge` metres over `world` (x and y) and the heights of the moving objects, but not below `floor`. No
+/// more than `most` boxes: they grow instead.
+MotionRegions choose_regions(std::span<const Object> objects, const Bounds& world, double edge, double floor,
+                             std::uint32_t most);
 
 template <class See>
 bool MotionRegions::any(const Bounds& box, const See& see) const {
@@ -36,8 +38,9 @@ bool MotionRegions::any(const Bounds& box, const See& see) const {
     const auto axis = static_cast<std::size_t>(k);
     // A millionth of a box more than rounding could take away.
     const double a = (box.min[k] - origin[k]) / edge[k] - 1e-6, b = (box.max[k] - origin[k]) / edge[k] + 1e-6;
-    if (!(a >= 0.0 && b < count[axis])) return true;
-    low[axis] = static_cast<std::uint32_t>(a);
+    // The lowest boxes end exactly where they begin, as what stands on the floor does.
+    if (!(a >= (k == 2 && box.min.z >= origin.z ? -1.0 : 0.0) && b < count[axis])) return true;
+    low[axis] = static_cast<std::uint32_t>(std::max(a, 0.0));
     high[axis] = static_cast<std::uint32_t>(b);
   }
   for (std::uint32_t z = low[2]; z <= high[2]; ++z) {

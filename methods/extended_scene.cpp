@@ -1,6 +1,7 @@
 #include "gridcull/methods/extended_scene.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace gridcull::extended {
@@ -44,6 +45,33 @@ void BoxTree::split(std::uint32_t node, std::span<const Bounds> boxes) {
   split(left + 1, boxes);
 }
 
+namespace {
+
+/// The height at which most upright occluders stand; none where more than a tenth of the occludees reaches below it,
+/// since those would never be hidden.
+Floor choose_floor(const std::vector<Occluder>& occluders, const std::vector<Occludee>& occludees) {
+  Floor floor;
+  Bounds all;
+  std::map<double, std::size_t> standing;
+  for (const Occluder& o : occluders) {
+    all.add(o.box.min);
+    all.add(o.box.max);
+    if (o.upright) ++standing[o.box.min.z];
+  }
+  std::size_t most = 0;
+  for (const auto& [height, count] : standing) {
+    if (count > most) most = count, floor.height = height;
+  }
+  const auto below =
+      std::count_if(occludees.begin(), occludees.end(), [&](const Occludee& o) { return o.box.min.z < floor.height; });
+  if (most == 0 || 10 * static_cast<std::size_t>(below) > occludees.size()) return {};
+  // More than a row of any map: a map is at most 1.5 times as high as it is far away.
+  floor.depth = glm::length(all.size());
+  return floor;
+}
+
+}  // namespace
+
 StaticScene make_static_scene(std::span<const Object* const> objects, double least_angle) {
   std::vector<const Object*> sorted;
   std::copy_if(objects.begin(), objects.end(), std::back_inserter(sorted),
@@ -60,6 +88,7 @@ StaticScene make_static_scene(std::span<const Object* const> objects, double lea
     occluder_boxes.push_back(occluder.box);
     scene.occluders.push_back(std::move(occluder));
   }
+  scene.floor = choose_floor(scene.occluders, scene.occludees);
   scene.tree.build(boxes);
   scene.worth.build(occluder_boxes, least_angle);
   return scene;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,17 @@ class BoxTree {
   std::vector<std::uint32_t> items_{};
 };
 
+/// The floor. Segments between points at or above a height stay there, so below it occluders may be as large as we
+/// like. Those that stand on it are drawn reaching below it: otherwise a viewpoint on the floor would look under them,
+/// by the part of a pixel that is left between a wall's foot and the next row. Answers then hold for viewpoints and
+/// occludees at or above the floor only.
+struct Floor {
+  double height = -std::numeric_limits<double>::infinity();  ///< z, metres: where most upright occluders stand
+  double depth = 0.0;                                        ///< how far down they are drawn, metres
+};
+
 struct StaticScene {
+  Floor floor{};
   std::vector<Occluder> occluders{};  ///< by ascending id
   std::vector<Occludee> occludees{};  ///< by ascending id; occluders too
   BoxTree tree{};                     ///< of the occludees

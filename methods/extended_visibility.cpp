@@ -58,6 +58,11 @@ std::size_t place_of(const Facing& facing) {
   return static_cast<std::size_t>(2 * facing.axis + (facing.sign < 0.0 ? 1 : 0));
 }
 
+bool hides(const Outlooks& outlooks, const Occludee& occludee, int halvings) {
+  std::uint64_t ignored = 0;
+  return occludee.box.min.z >= outlooks.floor && outlooks.hides(box_in(outlooks.cell, occludee), halvings, ignored);
+}
+
 double size_of(const Vec3& p) { return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z); }
 
 }  // namespace
@@ -120,7 +125,10 @@ std::span<const Polytope> CellLooker::local(const ViewCell& cell, std::uint32_t 
     c.polytopes = static_cast<std::uint32_t>(polytopes_.size());
     for (const Piece& piece : occluder.pieces) {
       Polytope& p = polytopes_.emplace_back(piece.polytope);
-      for (Vec3& x : p.points) x = into_cell(cell, x);
+      for (Vec3& x : p.points) {
+        if (above_floor_ && occluder.upright && x.z == scene_.floor.height) x.z -= scene_.floor.depth;
+        x = into_cell(cell, x);
+      }
     }
   }
   return {polytopes_.data() + c.polytopes, occluder.pieces.size()};
@@ -216,7 +224,7 @@ void CellLooker::test_tree(std::uint32_t node, CellView& out) {
   const auto items = scene_.tree.items(n);
   const Bounds box = box_in(out.outlooks.cell, n.box);
   const Cover cover = out.outlooks.cover(box, ignored);
-  if (cover == Cover::all) return;
+  if (cover == Cover::all && n.box.min.z >= out.outlooks.floor) return;
   if (cover == Cover::none) {  // fully visible: nothing in it can be hidden
     out.visible.insert(out.visible.end(), items.begin(), items.end());
     return;
@@ -227,7 +235,7 @@ void CellLooker::test_tree(std::uint32_t node, CellView& out) {
     return;
   }
   for (const std::uint32_t i : items) {
-    if (!out.outlooks.hides(box_in(out.outlooks.cell, scene_.occludees[i]), 0, ignored)) out.visible.push_back(i);
+    if (!hides(out.outlooks, scene_.occludees[i], 0)) out.visible.push_back(i);
   }
 }
 
@@ -238,11 +246,10 @@ void CellLooker::test(const std::vector<std::uint32_t>* candidates, bool closely
     std::sort(out.visible.begin(), out.visible.end());
     return;
   }
-  std::uint64_t ignored = 0;
   for (const std::uint32_t i : *candidates) {
     const Occludee& occludee = scene_.occludees[i];
     const int halvings = !closely ? 0 : occludee.id == no_id ? std::min(1, settings_.halvings) : settings_.halvings;
-    if (!out.outlooks.hides(box_in(out.outlooks.cell, occludee), halvings, ignored)) out.visible.push_back(i);
+    if (!hides(out.outlooks, occludee, halvings)) out.visible.push_back(i);
   }
 }
 
@@ -283,9 +290,11 @@ void CellLooker::sweep(CellView& out) {
   }
 }
 
-void CellLooker::look(const ViewCell& cell, ObjectId without, const std::vector<std::uint32_t>* candidates,
-                      CellView& out) {
+void CellLooker::look(const ViewCell& cell, bool above_floor, ObjectId without,
+                      const std::vector<std::uint32_t>* candidates, CellView& out) {
+  above_floor_ = above_floor;
   out.outlooks.cell = cell;
+  out.outlooks.floor = above_floor ? scene_.floor.height : -infinity;
   out.outlooks.planes.clear();
   out.visible.clear();
   out.used.clear();

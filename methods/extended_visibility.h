@@ -41,7 +41,9 @@ class CellLooker {
   /// Occluders that may hold a viewpoint of the cell do not count, nor does `without`. `candidates`: the places of
   /// the occludees to test, ascending (those that the parent cell sees: its other occludees are hidden from this cell
   /// too, and its other occluders are not worth it); nothing: all. Objects that meet the cell are visible.
-  void look(const ViewCell& cell, ObjectId without, const std::vector<std::uint32_t>* candidates, CellView& out);
+  /// `above_floor`: the answer is for viewpoints at or above the scene's floor.
+  void look(const ViewCell& cell, bool above_floor, ObjectId without, const std::vector<std::uint32_t>* candidates,
+            CellView& out);
 
  private:
   struct Candidate {
@@ -68,6 +70,7 @@ class CellLooker {
 
   const StaticScene& scene_;
   CellSettings settings_;
+  bool above_floor_ = false;
   OccluderProjector projector_{};
   Sweep sweep_{};
   std::vector<double> distances_{};

@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "gridcull/core/bounds.h"
 #include "gridcull/core/error.h"
 #include "random_solids.h"
 
@@ -44,6 +45,13 @@ Shape occluder_shape(Random& random, double size) {
   }
 }
 
+double world_height(const Shape& shape) {
+  Bounds box;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return 2.0 * sphere->radius;
+  for (const Vec3& p : world_vertices(shape, {})) box.add(p);
+  return box.size().z;
+}
+
 bool is_valid(const Shape& shape) {
   try {
     validate(shape);
@@ -72,12 +80,19 @@ ExtendedWorld random_extended_world(std::uint64_t seed) {
   out.cell.half =
       scale * (whole ? Vec3(1, 1 + random.below(3), 1) : Vec3(random.uniform(0.2, 2), random.uniform(0.2, 4), 1));
   if (seed % 3 == 0) out.cell.axes = rotation_of(random_turn(random));
+  // Every fourth world is a town: blocks that stand on the ground, and a cell on it.
+  const bool town = seed % 4 == 1;
+  if (town && seed % 3 == 0) out.cell.axes = {};
+  const double ground = out.cell.centre.z - out.cell.half.z;
   const auto place = [&](Shape shape, const Vec3& at, bool occluder) {
     if (!is_valid(shape)) return;
     Object o;
     o.id = static_cast<ObjectId>(out.objects.size());
+    o.pose.position = origin + scale * (whole ? glm::round(at) : at);
+    if (!whole) o.pose.orientation = town ? turn_about_z(at.x) : random_turn(random);
+    const double low = std::holds_alternative<Prism>(shape) ? 0.0 : -0.5 * world_height(shape);
+    if (town) o.pose.position.z = ground - low;
     o.shape = std::move(shape);
-    o.pose = {origin + scale * (whole ? glm::round(at) : at), whole ? Quat{} : random_turn(random)};
     o.occluder = occluder;
     o.is_static = true;
     out.objects.push_back(std::move(o));
