@@ -17,7 +17,9 @@
 #include "gridcull/core/error.h"
 #include "gridcull/methods/bytes.h"
 #include "gridcull/service/commands.h"
+#include "gridcull/service/file_roles.h"
 #include "gridcull/service/interrupt.h"
+#include "gridcull/service/option_values.h"
 #include "gridcull/service/progress.h"
 #include "gridcull/service/table.h"
 #include "gridcull/service/text.h"
@@ -155,6 +157,8 @@ void check_command_line(const BakeOptions& options) {
   if (!options.more.empty()) throw Error(ErrorCode::usage, "bake: expected one scene, found also " + options.more);
   if (options.out.empty()) throw Error(ErrorCode::usage, "--out is required");
   check_folder(options.out);
+  keep_apart(input_files(options.world),
+             std::vector<NamedFile>{{"--out", options.out}, {"--out", options.out + ".part"}});
 }
 
 int bake(const BakeOptions& options) {
@@ -209,13 +213,13 @@ void add_bake_command(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand("bake", "Work in advance for a method, into a file that --baked reads");
   add_scene_options(command, options->world);
   command.add_option("MORE", options->more)->group("");
-  command.add_option("--method", options->world.method, "one that bakes: " + bakers())->type_name("NAME");
-  command
-      .add_option("--out", options->out, "file to write; Ctrl-C leaves FILE.part, from which the same command goes on")
-      ->type_name("FILE");
-  command
-      .add_option("--threads", options->world.threads, "1 .. 256 (default: all cores); the file does not depend on it")
-      ->type_name("N");
+  add_text(command, "--method", options->world.method, "one that bakes", "one that bakes: " + bakers())
+      .type_name("NAME");
+  add_text(command, "--out", options->out, "a file name",
+           "file to write; Ctrl-C leaves FILE.part, from which the same command goes on")
+      .type_name("FILE");
+  add_whole(command, "--threads", options->world.threads, {1, 256, "1 .. 256"},
+            "1 .. 256 (default: all cores); the file does not depend on it");
   add_settings(command, *options);
   command.footer(
       "Example: a town, baked and used\n"

@@ -17,6 +17,7 @@
 #include "gridcull/service/commands.h"
 #include "gridcull/service/gnuplot.h"
 #include "gridcull/service/interrupt.h"
+#include "gridcull/service/option_values.h"
 #include "gridcull/service/progress.h"
 #include "gridcull/service/stability.h"
 #include "gridcull/service/text.h"
@@ -177,7 +178,8 @@ void add_options(CLI::App& command, BenchOptions& o) {
       ->delimiter(',')
       ->type_name("N,N...");
   command
-      .add_option("--resolutions", o.resolutions, "R for methods that take R, WxH for those that take WxH; 1 .. 8192")
+      .add_option("--resolutions", o.resolutions,
+                  "R for methods that take R, 8 .. 8192; WxH for those that take WxH, 1 .. 8192 each")
       ->delimiter(',')
       ->type_name("R|WxH,...");
   command
@@ -200,8 +202,9 @@ void add_options(CLI::App& command, BenchOptions& o) {
   command
       .add_option("--seconds", o.settings.seconds, "a contender that has used more on a scene is stopped (default 20)")
       ->type_name("S");
-  command.add_option("--max-memory", o.choice.max_memory, "refuse grids larger than this (default 4 GiB)")
-      ->type_name("BYTES");
+  add_whole(command, "--max-memory", o.choice.max_memory, memory_bytes(),
+            "refuse grids larger than this (default 4 GiB)")
+      .type_name("BYTES");
   CLI::Option* const stability = command.add_flag(
       "--stability", o.stability,
       "instead of scenes: small worlds that go to a limit (thin walls, far origins, fast movers ...), every "
@@ -210,8 +213,8 @@ void add_options(CLI::App& command, BenchOptions& o) {
   command.add_option("--baked", o.choice.baked, "files that gridcull bake wrote, each for its own method and scene")
       ->delimiter(',')
       ->type_name("FILE,...");
-  command.add_option("--out", o.out, "folder for bench.csv and the charts; without it only the tables")
-      ->type_name("DIR");
+  add_text(command, "--out", o.out, "a folder", "folder for bench.csv and the charts; without it only the tables")
+      .type_name("DIR");
 }
 
 }  // namespace

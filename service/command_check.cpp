@@ -10,6 +10,7 @@
 #include "gridcull/service/commands.h"
 #include "gridcull/service/interrupt.h"
 #include "gridcull/service/judge.h"
+#include "gridcull/service/option_values.h"
 #include "gridcull/service/progress.h"
 #include "gridcull/service/run_report.h"
 #include "gridcull/service/table.h"
@@ -84,9 +85,6 @@ std::string check_json(const CheckOptions& options, const PreparedWorld& world, 
 }
 
 int check(const CheckOptions& options) {
-  if (options.every < 1) throw option_error("--every", "1 or more", std::to_string(options.every));
-  if (options.rays < 1 || options.rays > 16384)
-    throw option_error("--rays", "1 .. 16384", std::to_string(options.rays));
   const PreparedWorld world = prepare_world(options.world);
   const auto culler = make_culler(options.world, world);
   Judge judge(world.scene.dimension, options.rays);
@@ -113,10 +111,11 @@ void add_check_command(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand("check", "Hold a method against the exact reference; 1 if it missed anybody");
   add_scene_options(command, options->world);
   add_method_options(command, options->world);
-  command.add_option("--every", options->every, "judge frames 0, N, 2N ... (all are replayed; default 1)")
-      ->type_name("N");
-  command.add_option("--rays", options->rays, "3D: along a frustum's height or a cube face's edge (default 512)")
-      ->type_name("R");
+  add_whole(command, "--every", options->every, {.low = 1, .expected = "a whole number, 1 or more"},
+            "judge frames 0, N, 2N ... (all are replayed; default 1)");
+  add_whole(command, "--rays", options->rays, {1, 16384, "1 .. 16384"},
+            "3D: along a frustum's height or a cube face's edge (default 512)")
+      .type_name("R");
   command.add_flag("--json", options->json, "one JSON object instead of text");
   command.footer(
       "Example: every twentieth frame of a town\n"

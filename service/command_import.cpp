@@ -1,5 +1,4 @@
 // `gridcull import`: worlds recorded by others.
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -7,9 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "gridcull/core/error.h"
 #include "gridcull/service/commands.h"
+#include "gridcull/service/file_roles.h"
 #include "gridcull/service/interrupt.h"
+#include "gridcull/service/option_values.h"
 #include "gridcull/service/progress.h"
 #include "gridcull/service/text.h"
 #include "gridcull/sim/import_petrack.h"
@@ -36,16 +36,19 @@ struct PetrackCommand : Shared {
 
 /// Writes what `import` (options and sink bound) gives.
 template <class Import>
-int write_import(const std::string& folder, Import&& import) {
+int write_import(const std::string& folder, const std::vector<NamedFile>& inputs, Import&& import) {
+  keep_apart(inputs, std::vector<NamedFile>{{"--out", folder + "/scene.json"}, {"--out", folder + "/frames.jsonl"}});
   WorldFiles files(folder, 2);
   Imported imported;
   {
     Progress progress("frames", std::nullopt);
     std::uint64_t frames = 0;
-    imported = import([&](const Frame& frame) {
-      files.write(frame);
-      progress.update(++frames);
-      stop_if_interrupted();
+    imported = named_as_typed([&] {
+      return import([&](const Frame& frame) {
+        files.write(frame);
+        progress.update(++frames);
+        stop_if_interrupted();
+      });
     });
   }
   files.commit(imported.scene);
@@ -57,51 +60,49 @@ int write_import(const std::string& folder, Import&& import) {
 }
 
 int import_sumo_files(SumoCommand options) {
-  options.sumo.viewers = parse_viewer_choice(options.viewers);
-  if (!options.box.empty()) {
-    if (options.box.size() != 4) throw option_error("--box", "x0,y0,x1,y1", counted(options.box.size(), "number"));
-    options.sumo.box = {options.box[0], options.box[1], options.box[2], options.box[3]};
-  }
-  if (!options.vehicle_size.empty()) {
-    if (options.vehicle_size.size() != 2) {
-      throw option_error("--vehicle-size", "LENGTH,WIDTH", counted(options.vehicle_size.size(), "number"));
-    }
-    options.sumo.vehicle_size = {options.vehicle_size[0], options.vehicle_size[1]};
-  }
-  return write_import(options.out, [&](const FrameSink& sink) { return import_sumo(options.sumo, sink); });
+  options.sumo.viewers = named_as_typed([&] { return parse_viewer_choice(options.viewers); });
+  if (const auto& b = options.box; !b.empty()) options.sumo.box = {b[0], b[1], b[2], b[3]};
+  if (const auto& size = options.vehicle_size; !size.empty()) options.sumo.vehicle_size = {size[0], size[1]};
+  std::vector<NamedFile> inputs{{"--fcd", options.sumo.fcd}};
+  if (!options.sumo.buildings.empty()) inputs.push_back({"--buildings", options.sumo.buildings});
+  return write_import(options.out, inputs, [&](const FrameSink& sink) { return import_sumo(options.sumo, sink); });
 }
 
 int import_petrack_files(PetrackCommand options) {
-  options.petrack.viewers = parse_viewer_choice(options.viewers);
-  return write_import(options.out, [&](const FrameSink& sink) { return import_petrack(options.petrack, sink); });
+  options.petrack.viewers = named_as_typed([&] { return parse_viewer_choice(options.viewers); });
+  return write_import(options.out, std::vector<NamedFile>{{"--trajectories", options.petrack.trajectories}},
+                      [&](const FrameSink& sink) { return import_petrack(options.petrack, sink); });
 }
 
 void add_shared(CLI::App& command, Shared& options) {
-  command.add_option("--out", options.out, "folder for scene.json and frames.jsonl")->required()->type_name("DIR");
-  command
-      .add_option(
-          "--viewers", options.viewers,
-          "who looks: all (default), a number to keep alive, or ids with commas (one id: with a comma after it)")
-      ->type_name("WHO");
+  add_text(command, "--out", options.out, "a folder", "folder for scene.json and frames.jsonl")
+      .required()
+      ->type_name("DIR");
+  add_text(command, "--viewers", options.viewers, "all, a number or ids with commas",
+           "who looks: all (default), a number to keep alive, or ids with commas (one id: with a comma after it)")
+      .type_name("WHO");
 }
 
 void add_sumo(CLI::App& import, Action& action) {
   const auto options = std::make_shared<SumoCommand>();
   CLI::App& command = *import.add_subcommand("sumo", "SUMO's floating-car data and building polygons");
   SumoOptions& sumo = options->sumo;
-  command.add_option("--fcd", sumo.fcd, "floating-car data (.xml, .xml.gz)")->required();
-  command.add_option("--buildings", sumo.buildings, "polygons (.poly.xml, may be .gz)");
+  add_text(command, "--fcd", sumo.fcd, "a file name", "floating-car data (.xml, .xml.gz)").required();
+  add_text(command, "--buildings", sumo.buildings, "a file name", "polygons (.poly.xml, may be .gz)");
   add_shared(command, *options);
-  command.add_option("--box", options->box, "only what lies in this box, metres")
-      ->delimiter(',')
-      ->type_name("X0,Y0,X1,Y1");
-  command.add_option("--range", sumo.range, "how far viewers see (default: no limit)")->type_name("METRES");
-  command.add_option("--vehicle-size", options->vehicle_size, "length and width, metres (default 5.0,1.8)")
-      ->delimiter(',')
-      ->type_name("L,W");
-  command.add_option("--person-radius", sumo.person_radius, "metres (default 0.25)");
-  command.add_option("--max-speed", sumo.max_speed, "of vehicles, m/s (default 60)");
-  command.add_option("--every", sumo.every, "keep every Nth step (default 1)")->type_name("N");
+  add_numbers(command, "--box", options->box, 4, "four numbers X0,Y0,X1,Y1 of magnitude at most 1e9",
+              "only what lies in this box, metres")
+      .type_name("X0,Y0,X1,Y1");
+  add_positive(command, "--range", sumo.range, positive_metres(), "how far viewers see (default: no limit)")
+      .type_name("METRES");
+  add_numbers(command, "--vehicle-size", options->vehicle_size, 2, "two numbers L,W above 0 and at most 1e9",
+              "length and width, metres (default 5.0,1.8)")
+      .type_name("L,W");
+  add_positive(command, "--person-radius", sumo.person_radius, positive_metres(), "metres (default 0.25)")
+      .type_name("METRES");
+  add_positive(command, "--max-speed", sumo.max_speed, {}, "of vehicles, m/s (default 60)");
+  add_whole(command, "--every", sumo.every, {.low = 1, .expected = "a whole number, 1 or more"},
+            "keep every Nth step (default 1)");
   command.footer(
       "Example: forty drivers of a simulated town, looking 150 m far\n"
       "  gridcull import sumo --fcd fcd.xml.gz --buildings town.poly.xml --out town --viewers 40 --range 150");
@@ -112,13 +113,18 @@ void add_petrack(CLI::App& import, Action& action) {
   const auto options = std::make_shared<PetrackCommand>();
   CLI::App& command = *import.add_subcommand("petrack", "Trajectories of pedestrians as PeTrack writes them");
   PetrackOptions& petrack = options->petrack;
-  command.add_option("--trajectories", petrack.trajectories, "text file with rows id frame x y z (may be .gz)")
-      ->required();
+  add_text(command, "--trajectories", petrack.trajectories, "a file name",
+           "text file with rows id frame x y z (may be .gz)")
+      .required();
   add_shared(command, *options);
-  command.add_option("--radius", petrack.radius, "of a person, metres (default 0.25)");
-  command.add_option("--range", petrack.range, "how far viewers see (default 25)")->type_name("METRES");
-  command.add_option("--fov-degrees", petrack.fov_degrees, "field of view (default 170)")->type_name("DEGREES");
-  command.add_option("--max-speed", petrack.max_speed, "m/s (default 5)");
+  add_positive(command, "--radius", petrack.radius, positive_metres(), "of a person, metres (default 0.25)")
+      .type_name("METRES");
+  add_positive(command, "--range", petrack.range, positive_metres(), "how far viewers see (default 25)")
+      .type_name("METRES");
+  add_positive(command, "--fov-degrees", petrack.fov_degrees, {360.0, "degrees above 0 and at most 360"},
+               "field of view (default 170)")
+      .type_name("DEGREES");
+  add_positive(command, "--max-speed", petrack.max_speed, {}, "m/s (default 5)");
   command.footer(
       "Example: ten people in a bottleneck\n"
       "  gridcull import petrack --trajectories 040_c_56_h.txt --out bottleneck --viewers 10");

@@ -8,9 +8,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "gridcull/core/error.h"
 #include "gridcull/service/commands.h"
+#include "gridcull/service/file_roles.h"
 #include "gridcull/service/interrupt.h"
+#include "gridcull/service/option_values.h"
 #include "gridcull/service/picture_request.h"
 #include "gridcull/service/progress.h"
 #include "gridcull/service/run_report.h"
@@ -40,10 +41,16 @@ Stats complete(Stats stats, const WorldOptions& options, const PreparedWorld& wo
   return stats;
 }
 
+std::vector<NamedFile> output_files(const RunOptions& options) {
+  std::vector<NamedFile> files;
+  if (!options.out.empty()) files.push_back({"--out", options.out});
+  if (!options.stats.empty()) files.push_back({"--stats", options.stats});
+  for (const std::string& text : options.pictures) files.push_back({"--picture", parse_picture_request(text).file});
+  return files;
+}
+
 int run(const RunOptions& options) {
-  if (options.out == "-" && options.stats == "-") {
-    throw Error(ErrorCode::usage, "--stats -: standard output is the answers' already");
-  }
+  keep_apart(input_files(options.world), output_files(options));
   const PreparedWorld world = prepare_world(options.world);
   const auto culler = make_culler(options.world, world);
   // Outputs are opened before the work: one that cannot be written is refused at once.
@@ -87,9 +94,9 @@ void add_run_command(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand("run", "Replay a world: who may be seen by whom, frame by frame");
   add_scene_options(command, options->world);
   add_method_options(command, options->world);
-  command.add_option("--out", options->out,
-                     "write the answers (.jsonl, .jsonl.gz, or -); without it a short table is printed");
-  command.add_option("--stats", options->stats, "write times and counts as JSON");
+  add_text(command, "--out", options->out, "a file name",
+           "write the answers (.jsonl, .jsonl.gz, or -); without it a short table is printed");
+  add_text(command, "--stats", options->stats, "a file name", "write times and counts as JSON");
   command
       .add_option("--picture", options->pictures,
                   "draw what one viewer met in one frame, 2D with silhouette: exactly what it sees; may be repeated")

@@ -57,8 +57,6 @@ Pictures::Pictures(const std::vector<std::string>& requests, std::string label) 
   for (const std::string& text : requests) {
     PictureRequest request = parse_picture_request(text);
     for (const Item& other : items_) {
-      if (other.request.file == request.file)
-        throw Error(ErrorCode::usage, "--picture: " + request.file + " is named twice");
       if (other.request.frame == request.frame) {
         throw Error(ErrorCode::usage, "--picture: one picture a frame can be drawn, and frame " +
                                           std::to_string(request.frame) + " is asked for twice");
@@ -105,7 +103,8 @@ void Pictures::check() const {
     const PictureRequest& request = item.request;
     const std::string what = "--picture " + std::to_string(request.frame) + ":" + std::to_string(request.viewer);
     if (request.frame >= frames_) {
-      throw Error(ErrorCode::usage, what + ": there are only " + counted(frames_, "frame") + ", counted from 0");
+      throw Error(ErrorCode::usage, what + (frames_ == 1 ? ": there is only " : ": there are only ") +
+                                        counted(frames_, "frame") + ", counted from 0");
     }
     throw Error(ErrorCode::usage, what + ": viewer " + std::to_string(request.viewer) + " is not there in that frame");
   }

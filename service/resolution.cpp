@@ -8,13 +8,14 @@
 namespace gridcull {
 namespace {
 
-constexpr int most = 8192;
+constexpr int least_edge = 8, most = 8192;  // a mask is made of blocks of 8 x 8 pixels
 
-int side(std::string_view text, const std::string& whole, const std::string& option) {
+int side(std::string_view text, int least, const std::string& whole, const std::string& option) {
   int value = 0;
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (fault != std::errc() || end != text.data() + text.size() || value < 1 || value > most) {
-    throw option_error(option, "R or WxH of 1 .. 8192 pixels", whole);
+  if (fault != std::errc() || end != text.data() + text.size() || value < least || value > most) {
+    throw option_error(option, "R of 8 .. 8192 pixels, or WxH of 1 .. 8192 rays each",
+                       whole.empty() ? "nothing" : whole);
   }
   return value;
 }
@@ -23,9 +24,9 @@ int side(std::string_view text, const std::string& whole, const std::string& opt
 
 Resolution parse_resolution(const std::string& text, const std::string& option) {
   const std::size_t cross = text.find('x');
-  if (cross == std::string::npos) return {.edge = side(text, text, option)};
+  if (cross == std::string::npos) return {.edge = side(text, least_edge, text, option)};
   const std::string_view all(text);
-  return {.width = side(all.substr(0, cross), text, option), .height = side(all.substr(cross + 1), text, option)};
+  return {.width = side(all.substr(0, cross), 1, text, option), .height = side(all.substr(cross + 1), 1, text, option)};
 }
 
 std::string resolution_text(const Resolution& resolution) {

@@ -8,7 +8,7 @@
 namespace gridcull {
 
 struct Resolution {
-  int edge = 0;               ///< R: 1 .. 8192; 0 where WxH was given, or nothing
+  int edge = 0;               ///< R: 8 .. 8192; 0 where WxH was given, or nothing
   int width = 0, height = 0;  ///< WxH: 1 .. 8192 each
 };
 

@@ -1,15 +1,19 @@
 #include "gridcull/service/world_options.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include "gridcull/core/error.h"
 #include "gridcull/service/interrupt.h"
+#include "gridcull/service/option_values.h"
 #include "gridcull/service/progress.h"
 #include "gridcull/service/resolution.h"
 #include "gridcull/service/text.h"
+#include "gridcull/sim/text_file.h"
 
 namespace gridcull {
 namespace {
@@ -21,12 +25,6 @@ BoundKind parse_bounds(const std::string& name) {
 }
 
 void check_options(const WorldOptions& options) {
-  if (options.cell && !(*options.cell > 0.0 && std::isfinite(*options.cell))) {
-    throw option_error("--cell", "a size above 0", number_text(*options.cell));
-  }
-  if (options.threads < 1 || options.threads > 256) {
-    throw option_error("--threads", "1 .. 256", std::to_string(options.threads));
-  }
   if (options.tbv != "off" && options.tbv != "solid" && options.tbv != "hollow") {
     throw option_error("--tbv", "off, solid or hollow", options.tbv);
   }
@@ -35,9 +33,7 @@ void check_options(const WorldOptions& options) {
   if (options.occluders < 1 || options.occluders > 64) {
     throw option_error("--occluders", "1 .. 64", std::to_string(options.occluders));
   }
-  if (options.scene == "-" && options.frames == "-") {
-    throw Error(ErrorCode::usage, "--frames -: standard input is the scene already");
-  }
+  keep_apart(input_files(options), {});
 }
 
 LatticeChoice choose(const Scene& scene, const std::optional<double>& cell, const std::optional<Survey>& survey) {
@@ -45,37 +41,77 @@ LatticeChoice choose(const Scene& scene, const std::optional<double>& cell, cons
   return choose_lattice(scene.dimension, survey->objects, scene.bounds, cell, survey->extent);
 }
 
+/// Below this the numbers of cells say nothing any more, and no cell size would be found that fits.
+void refuse_tiny(double cell, const Bounds& bounds, const std::string& source) {
+  if (bounds.empty()) return;
+  double far = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    far = std::max({far, std::fabs(bounds.min[axis]), std::fabs(bounds.max[axis])});
+  }
+  if (cell < 0x1p-40 * far) {
+    throw Error(ErrorCode::bad_scene, source + ": expected at least 1e-12 of the bounds' greatest coordinate, " +
+                                          number_text(far) + " m, found " + number_text(cell));
+  }
+}
+
+std::string cell_source(const WorldOptions& options, const Scene& scene) {
+  if (options.cell) return "--cell";
+  const std::string name = options.scene == "-" ? "standard input" : options.scene;
+  return name + (scene.cell ? ": /grid/cell" : ": the cell size derived from it");
+}
+
 }  // namespace
 
+Lattice make_lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t max_memory,
+                     const std::string& source) {
+  refuse_tiny(cell, bounds, source);
+  try {
+    return Lattice(dimension, bounds, cell, max_memory);
+  } catch (const Error& fault) {
+    constexpr std::string_view field = "grid.cell";
+    const std::string_view line = fault.what();
+    if (!line.starts_with(field)) throw;
+    throw Error(fault.code(), source + std::string(line.substr(field.size())));
+  }
+}
+
+std::vector<NamedFile> input_files(const WorldOptions& options) {
+  std::vector<NamedFile> files{{"SCENE", options.scene}};
+  if (!options.frames.empty()) files.push_back({"--frames", options.frames});
+  if (!options.baked.empty()) files.push_back({"--baked", options.baked});
+  return files;
+}
+
 void add_scene_options(CLI::App& command, WorldOptions& options) {
-  command.add_option("SCENE", options.scene, "scene file (.json, .json.gz, or - for standard input)")->required();
-  command.add_option("--frames", options.frames,
-                     "frames file (.jsonl, .jsonl.gz, or -); without it one frame at time 0");
-  command.add_option("--cell", options.cell, "cell size in metres; overrides the scene's")->type_name("METRES");
-  command.add_option("--max-memory", options.max_memory, "refuse grids larger than this (default 4 GiB)")
-      ->type_name("BYTES");
+  add_text(command, "SCENE", options.scene, "a file name", "scene file (.json, .json.gz, or - for standard input)")
+      .required();
+  add_text(command, "--frames", options.frames, "a file name",
+           "frames file (.jsonl, .jsonl.gz, or -); without it one frame at time 0");
+  add_positive(command, "--cell", options.cell, positive_metres(), "cell size in metres; overrides the scene's")
+      .type_name("METRES");
+  add_whole(command, "--max-memory", options.max_memory, memory_bytes(),
+            "refuse grids larger than this (default 4 GiB)")
+      .type_name("BYTES");
 }
 
 void add_method_options(CLI::App& command, WorldOptions& options) {
-  command.add_option("--method", options.method, "as listed by gridcull methods (default " + options.method + ")")
-      ->type_name("NAME");
-  command.add_option("--threads", options.threads, "1 .. 256 (default 1); answers do not depend on it")->type_name("N");
-  command
-      .add_option("--tbv", options.tbv,
-                  "temporal bounding volumes of hidden movers: off, solid or hollow (default solid); silhouette takes "
-                  "hollow as solid")
-      ->type_name("KIND");
-  command
-      .add_option(
-          "--resolution", options.resolution,
-          "silhouette in 3D: R pixels along a cube face's edge, 8 .. 8192, finer is tighter and slower (default "
-          "512, 256 all round with a range); depth-rays: WxH rays, each 1 .. 8192 (default 128x72)")
-      ->type_name("R|WxH");
-  command
-      .add_option("--baked", options.baked,
-                  "what gridcull bake wrote for this method and scene; without it the method "
-                  "bakes a little at the first frame")
-      ->type_name("FILE");
+  add_text(command, "--method", options.method, "a method's name",
+           "as listed by gridcull methods (default " + options.method + ")")
+      .type_name("NAME");
+  add_whole(command, "--threads", options.threads, {1, 256, "1 .. 256"},
+            "1 .. 256 (default 1); answers do not depend on it");
+  add_text(command, "--tbv", options.tbv, "off, solid or hollow",
+           "temporal bounding volumes of hidden movers: off, solid or hollow (default solid); silhouette takes "
+           "hollow as solid")
+      .type_name("KIND");
+  add_text(command, "--resolution", options.resolution, "R or WxH",
+           "silhouette in 3D: R pixels along a cube face's edge, 8 .. 8192, finer is tighter and slower (default "
+           "512, 256 all round with a range); depth-rays: WxH rays, each 1 .. 8192 (default 128x72)")
+      .type_name("R|WxH");
+  add_text(command, "--baked", options.baked, "a file name",
+           "what gridcull bake wrote for this method and scene; without it the method "
+           "bakes a little at the first frame")
+      .type_name("FILE");
   command
       .add_option("--view-box", options.view_box,
                   "five-d-tree: edge of the box about a viewpoint that its queries take (default 0)")
@@ -100,8 +136,10 @@ PreparedWorld prepare_world(const WorldOptions& options, bool always_survey) {
   const std::optional<double> cell = options.cell ? options.cell : scene.cell;
   std::optional<Survey> survey;
   if (always_survey || !scene.bounds || !cell) survey = survey_world(scene, options.frames);
+  if (cell) refuse_tiny(*cell, scene.bounds ? *scene.bounds : survey->extent, cell_source(options, scene));
   LatticeChoice choice = choose(scene, cell, survey);
-  Lattice lattice(scene.dimension, choice.bounds, choice.cell, options.max_memory);
+  const Lattice lattice =
+      make_lattice(scene.dimension, choice.bounds, choice.cell, options.max_memory, cell_source(options, scene));
   return {std::move(scene), std::move(survey), std::move(choice), lattice};
 }
 
@@ -138,7 +176,7 @@ std::unique_ptr<FrameReader> open_frames(const WorldOptions& options, const Prep
 
 std::optional<std::uint64_t> expected_frames(const WorldOptions& options, const PreparedWorld& world) {
   if (options.frames.empty()) return 1;
-  if (!Progress::is_seen() || options.frames == "-") return std::nullopt;
+  if (!Progress::is_seen() || reads_once(options.frames)) return std::nullopt;
   return world.survey ? world.survey->frames : count_frames(options.frames);
 }
 

@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gridcull/core/culler.h"
 #include "gridcull/grid/choose_lattice.h"
 #include "gridcull/grid/lattice.h"
 #include "gridcull/methods/catalog.h"
+#include "gridcull/service/file_roles.h"
 #include "gridcull/service/survey.h"
 #include "gridcull/sim/frames.h"
 #include "gridcull/sim/replay.h"
@@ -37,6 +39,13 @@ struct WorldOptions {
   std::string bounds{};  ///< a name of core/bound_kind.h; "": the method's default
   int occluders = MethodOptions{}.occluders;
 };
+
+/// The lattice; a refusal of the cell begins with where it comes from: "--cell", "s.json: /grid/cell".
+Lattice make_lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t max_memory,
+                     const std::string& source);
+
+/// SCENE and, where they are named, --frames and --baked.
+std::vector<NamedFile> input_files(const WorldOptions& options);
 
 /// SCENE, --frames, --cell and --max-memory.
 void add_scene_options(CLI::App& command, WorldOptions& options);

@@ -115,7 +115,8 @@ TEST_CASE("--resolution is R or WxH") {
   CHECK(parse_resolution("42x24").height == 24);
   CHECK(resolution_text(parse_resolution("8192x1")) == "8192x1");
   CHECK(resolution_text({}) == "auto");
-  for (const char* bad : {"", "0", "-1", "8193", "x", "3x", "x3", "3x0", "3x4x5", "3.5", " 3", "1e3", "99999999999"}) {
+  for (const char* bad :
+       {"", "0", "7", "-1", "8193", "x", "3x", "x3", "3x0", "3x4x5", "3.5", " 3", "1e3", "99999999999"}) {
     CAPTURE(bad);
     CHECK_THROWS_AS(parse_resolution(bad), Error);
   }

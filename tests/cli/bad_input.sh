@@ -57,6 +57,10 @@ bad_scene "a range of 0" "range" "$box" '{"id": 1, "position": [0, 0], "range": 
 bad_scene "a field of view of 400 degrees" "fov" "$box" '{"id": 1, "position": [0, 0], "fov_degrees": 400}'
 bad_scene "cell of 0" "cell" "$box" "$eye" '"grid": {"cell": 0},'
 bad_scene "bounds upside down" "bounds" "$box" "$eye" '"bounds": {"min": [10, 0], "max": [0, 10]},'
+for aspect in 9e-7 1000001 1e300; do
+  bad_text "aspect $aspect" "s.json: /viewers/0/frustum/aspect: expected" '{"format": "gridcull.scene/1", "dimension": 3,
+    "objects": [], "viewers": [{"id": 1, "position": [0, 0, 0], "frustum": {"fov_y_degrees": 60, "aspect": '"$aspect"'}}]}'
+done
 bad_text "quaternion of length 0" "orientation" '{"format": "gridcull.scene/1", "dimension": 3, "objects": [{"id": 1,
   "shape": {"type": "box", "size": [1, 1, 1]}, "position": [0, 0, 0], "orientation": [0, 0, 0, 0]}], "viewers": []}'
 
@@ -88,6 +92,10 @@ bad_frames "unknown viewer dropped" "9" '{"time": 1, "drop_viewers": [9]}'
 bad_frames "unknown key in a frame" "wind" '{"time": 1, "wind": 3}'
 bad_frames "a frame that is no JSON" "f.jsonl" 'frame'
 bad_frames "a late fault" "f.jsonl:4" $'{"time": 1}\n{"time": 2}\n{"time": "three"}'
+printf '%s\n' '{"format": "gridcull.scene/1", "dimension": 3, "objects": [], "viewers": []}' >s.json
+bad_frames "too flat a frustum" "f.jsonl:3: /viewers/0/frustum/aspect" '{"time": 1}
+{"time": 2, "viewers": [{"id": 1, "position": [0, 0, 0], "frustum": {"fov_y_degrees": 60, "aspect": 1e-7}}]}'
+scene s.json "$box" "$eye"
 printf '{"format": "gridcull.frames/7"}\n{"time": 1}\n' >f.jsonl
 refused "wrong version of frames" "format" run s.json --frames f.jsonl "${everything[@]}"
 printf '{"format": "gridcull.frames/1"}\n{"time": 1}\n' >f.jsonl
@@ -127,15 +135,19 @@ cat >fcd.xml <<'XML'
   <timestep time="0.10"><vehicle id="a" x="1.1" y="2" angle="90" speed="1"/></timestep>
 </fcd-export>
 XML
-head -c 150 fcd.xml >cut.xml
-refused "FCD cut in the middle" "cut.xml" import sumo --fcd cut.xml --out out/town
+for size in 0 5 150 $(($(stat -c %s fcd.xml) - 5)); do
+  head -c "$size" fcd.xml >cut.xml
+  refused "FCD cut behind byte $size" "cut.xml:[0-9]+: .*cut short" import sumo --fcd cut.xml --out out/town
+done
 gzip -c fcd.xml | head -c 60 >cut.xml.gz
 refused "FCD .gz cut in the middle" "cut.xml.gz" import sumo --fcd cut.xml.gz --out out/town
 refused "no FCD" "missing.xml" import sumo --fcd missing.xml --out out/town
 refused "no buildings" "missing.xml" import sumo --fcd fcd.xml --buildings missing.xml --out out/town
 refused "a box of three" "box" import sumo --fcd fcd.xml --box 0,0,1 --out out/town
 refused "a viewer that never comes" "nobody" import sumo --fcd fcd.xml --viewers nobody --out out/town
+: >empty.txt
 printf '# framerate: 25 fps\n# id frame x/m y/m z/m\n1 0 0.5\n' >tracks.txt
+refused "no tracks at all" "^gridcull: empty.txt: expected .*an empty file$" import petrack --trajectories empty.txt --out out/p
 refused "a track cut in the middle" "tracks.txt" import petrack --trajectories tracks.txt --out out/p
 
 # Usage
@@ -157,15 +169,107 @@ refused "0 threads" "threads" run s.json --threads 0 "${everything[@]}"
 refused "257 threads" "threads" run s.json --threads 257 "${everything[@]}"
 refused "unknown kind of TBV" "tbv" run s.json --tbv square "${everything[@]}"
 refused "unknown kind of TBV, frustum" "tbv" run s.json --method frustum --tbv square "${everything[@]}"
-refused "every 0th" "every" check s.json --every 0
 refused "no rays" "rays" check s.json --rays 0
 refused "picture without a file" "picture" run s.json --picture 1:2
-refused "picture twice" "twice" run s.json --picture 0:1:out/a.svg --picture 0:1:out/a.svg
 refused "unknown scene to make" "volcano" make volcano --out out/v
 refused "make nowhere" "out" make town
 refused "make with a negative count" "count" make town --out out/t --count -5
 refused "make with a cell of 0" "cell" make town --out out/t --cell 0
 refused "baked for a method that does not bake" "reads no baked file" run s.json --baked x --method voxel "${everything[@]}"
-refused "standard input twice" "standard input" run - --frames -
+refused "bake without a method" "one that bakes" bake s.json --out out/x
+refused "bake with one that does not" "does not bake" bake s.json --method voxel --out out/x
+: >kept.txt
+refused "bake over the scene" "expected an output of its own" bake s.json --method five-d-tree --out s.json
+refused "bake with 0 threads" "--threads: expected 1 .. 256, found 0$" bake s.json --method five-d-tree --out out/x --threads 0
+refused "answers over the baked file" "expected an output of its own" run s.json --method five-d-tree --baked kept.txt --out kept.txt
+refused "bake static" "bake static" bake static s.json --out out/x.vdb
+
+# Values: what was expected and found, by the option as typed.
+for value in x 1.5 -3 "" 1e2; do
+  refused "threads '$value'" "--threads: expected 1 .. 256, found ${value:-nothing}$" run s.json --threads "$value"
+done
+for value in 1e10 inf -1 abc 2m ""; do
+  refused "cell '$value'" "--cell: expected metres above 0 and at most 1e9, found ${value:-nothing}$" run s.json --cell "$value"
+  refused "cell '$value' to make" "--cell: expected metres .*, found ${value:-nothing}$" make town --out out/t --cell "$value"
+  refused "range '$value' to make" "--range: expected metres .*, found ${value:-nothing}$" make town --out out/t --range "$value"
+  refused "range '$value' to import" "--range: expected metres .*, found ${value:-nothing}$" \
+    import sumo --fcd fcd.xml --out out/t --range "$value"
+done
+for value in -1 0 4GiB 4e9 99999999999999999999; do
+  refused "max-memory $value" "--max-memory: expected a whole number of bytes, 1 or more, found $value$" run s.json --max-memory "$value"
+  refused "max-memory $value to bench" "--max-memory: .*found $value$" bench --scenes discs:5 --max-memory "$value"
+done
+for value in -1 0 x; do
+  refused "every ${value}th" "--every: expected a whole number, 1 or more, found $value$" check s.json --every "$value"
+  refused "every ${value}th of an import" "--every: .*found $value$" import sumo --fcd fcd.xml --out out/t --every "$value"
+done
+refused "a negative seed" "--seed: expected a whole number .*found -1$" make town --out out/t --seed -1
+refused "too many corridors" "--count: expected 1 .. 2000 .*found 2001$" make maze --out out/t --count 2001
+refused "no blocks" "--blocks: expected 1 .. 2000, found 0$" make city --out out/t --blocks 0
+refused "no frames to make" "--frames: expected .*found 0$" make town --out out/t --frames 0
+refused "a radius of -1" "--radius: expected metres .*found -1$" import petrack --trajectories tracks.txt --out out/p --radius -1
+refused "too wide a view" "--fov-degrees: expected degrees .*found 400$" \
+  import petrack --trajectories tracks.txt --out out/p --fov-degrees 400
+refused "a box of words" "--box: expected four numbers .*found 0,0,x,1$" import sumo --fcd fcd.xml --box 0,0,x,1 --out out/t
+refused "a box inside out" "--box: expected x0,y0,x1,y1 .*found 5,0,1,9$" import sumo --fcd fcd.xml --box 5,0,1,9 --out out/t
+refused "a flat vehicle" "--vehicle-size: width: .*found 0$" import sumo --fcd fcd.xml --vehicle-size 5,0 --out out/t
+refused "an empty choice of viewers" "--viewers: expected .*found" import sumo --fcd fcd.xml --viewers , --out out/t
+refused "a viewer that never comes, by option" "--viewers: expected ids" import sumo --fcd fcd.xml --viewers nobody --out out/t
+for value in 7 0 9000; do
+  refused "resolution $value" "expected R of 8 .. 8192 pixels, or WxH of 1 .. 8192 rays each, found $value$" \
+    run s.json --resolution "$value"
+done
+for option in --out --stats --frames --method --tbv --resolution; do
+  refused "an empty $option" "$option: expected .*found nothing$" run s.json "$option" ""
+done
+refused "an empty name of a scene" "SCENE: expected a file name, found nothing" run ""
+refused "an empty folder to make" "--out: expected a folder, found nothing" make town --out ""
+refused "an empty folder to import" "--out: expected a folder" import sumo --fcd fcd.xml --out ""
+refused "no name of buildings" "--buildings: expected a file name" import sumo --fcd fcd.xml --buildings "" --out out/t
+refused "a picture of a frame too late" "there is only 1 frame, counted from 0" run s.json --picture 5:1:out/view.svg
+
+# Cells that no grid can have: by option, or by file and pointer.
+for value in 1e-300 5e-324; do
+  refused "cell $value" "--cell: expected at least 1e-12 of the bounds" run s.json --cell "$value"
+  refused "cell $value to make" "--cell: " make discs --out out/t --cell "$value"
+  scene tiny.json "$box" "$eye" "\"grid\": {\"cell\": $value},"
+  refused "cell $value in a scene" "tiny.json: /grid/cell: expected at least" run tiny.json "${everything[@]}"
+done
+refused "a fine cell to make" "--cell: cells of 0.001 m need .*would fit" make discs --out out/t --cell 0.001
+refused "a fine cell to run" "--cell: cells of .*would fit" run s.json --cell 1e-5
+scene fine.json "$box" "$eye" '"grid": {"cell": 1e-5},'
+refused "a fine cell in a scene" "fine.json: /grid/cell: cells of .*would fit" run fine.json "${everything[@]}"
+
+# Each output its own file, and none that is read.
+cp s.json kept.json
+cp f.jsonl kept.jsonl
+ln -s s.json link.json
+apart() { refused "$1" "expected an output of its own" run s.json --frames f.jsonl "${@:2}"; }
+apart "answers and statistics" --out out/x --stats out/x
+apart "two spellings" --out out/o.jsonl --stats ./out/../out/o.jsonl
+apart "answers and picture" --out out/o --picture 0:1:out/o
+apart "statistics and picture" --stats out/o --picture "0:1:$work/out/o"
+apart "two pictures" --picture 0:1:out/a.svg --picture 0:1:out/a.svg
+apart "standard output for answers and statistics" --out - --stats -
+apart "standard output for answers and picture" --out - --picture 0:1:-
+apart "standard output for statistics and picture" --stats - --picture 0:1:-
+apart "standard output by two names" --out - --stats /dev/stdout
+apart "answers over the scene" --out s.json
+apart "answers over the scene, by a link" --out link.json
+apart "statistics over the frames" --stats ./f.jsonl
+apart "a picture over the scene" --picture 0:1:s.json
+mkdir town
+cp fcd.xml town/frames.jsonl
+refused "an import over its source" "expected an output of its own" import sumo --fcd town/frames.jsonl --out town
+same "the import's source is as it was" town/frames.jsonl fcd.xml
+ln -s target.jsonl dangling.jsonl
+apart "a link and what it names" --out dangling.jsonl --stats target.jsonl
+same "the scene is as it was" s.json kept.json
+same "the frames are as they were" f.jsonl kept.jsonl
+good "/dev/null as often as one likes" run s.json --out /dev/null --stats /dev/null --picture 0:1:/dev/null
+refused "standard input twice" "read once" run - --frames -
+refused "standard input twice, by two names" "read once" run - --frames /dev/stdin
+ln -s nowhere/x.jsonl astray.jsonl
+refused "a link into no folder" "astray.jsonl: cannot be written" run s.json --out astray.jsonl
 
 finish

@@ -52,6 +52,28 @@ checks=$((checks + 2))
 same "scene from a pipe" piped.jsonl plain.jsonl
 "$program" run town/scene.json --frames - --out - <town/frames.jsonl | tail -n +2 >piped.jsonl || fail "frames from a pipe"
 same "frames from a pipe" piped.jsonl plain.jsonl
+# A pipe has no name of its own that could be read twice: bounds and cell are then derived from the scene alone.
+sed 's/"bounds": {[^}]*}, *//; s/"grid": {[^}]*}, *//' town/scene.json >derived.json
+for pipe in - /dev/stdin; do
+  checks=$((checks + 3))
+  "$program" run derived.json --frames "$pipe" --out - < <(cat town/frames.jsonl) | tail -n +2 >piped.jsonl ||
+    fail "derived bounds, frames from $pipe"
+  "$program" info derived.json --frames "$pipe" < <(cat town/frames.jsonl) >info.txt || fail "info, frames from $pipe"
+  "$program" check derived.json --frames "$pipe" --json < <(cat town/frames.jsonl) >check.txt || fail "check, frames from $pipe"
+  is "answers with frames from $pipe" "$(wc -l <piped.jsonl)" $((12 * 3))
+  is "frames judged from $pipe" "$(json judged_frames check.txt)" 12
+done
+
+# Links are followed, to what is not there yet too; a scene's name may be any bytes.
+ln -s later.jsonl link.jsonl
+good "to a link" run town/scene.json --out link.jsonl
+[ -L link.jsonl ] && [ -s later.jsonl ] || fail "a link was replaced by a file"
+odd=$'town/\xff.json'
+cp town/scene.json "$odd"
+good "a name that is no UTF-8" run "$odd" --out odd.jsonl --picture "0:$viewer:odd.svg"
+checks=$((checks + 1))
+iconv -f UTF-8 -t UTF-8 odd.svg >/dev/null || fail "the picture is no UTF-8"
+iconv -f UTF-8 -t UTF-8 odd.jsonl >/dev/null || fail "the answers are no UTF-8"
 
 # Checks.
 good "bounds" run town/scene.json --frames town/frames.jsonl --method frustum --bounds 26-dop
