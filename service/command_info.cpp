@@ -15,6 +15,7 @@
 #include "gridcull/service/table.h"
 #include "gridcull/service/text.h"
 #include "gridcull/service/world_options.h"
+#include "gridcull/sim/text_file.h"
 
 namespace gridcull {
 namespace {
@@ -39,7 +40,7 @@ std::string contents(const std::vector<Object>& objects) {
 
 std::string frames_text(const WorldOptions& options, const Survey& survey) {
   if (options.frames.empty()) return "no file: one at time 0";
-  if (options.frames == "-") return "standard input: not looked at";
+  if (reads_once(options.frames)) return "standard input or a pipe: not looked at";
   return std::to_string(survey.frames) + ", time " + number_text(survey.first_time) + " .. " +
          number_text(survey.last_time) + " s, " + counted(survey.moves, "move") + ", " +
          counted(survey.removals, "removal");
@@ -128,8 +129,7 @@ int info(const WorldOptions& options) {
   text += row("cell", number_text(world.choice.cell) + " m: " + world.choice.cell_reason);
   text += row("grid", lattice_text(world.lattice) + ", " + std::to_string(world.lattice.cell_count()) + " in all");
   text += row("cell-less", cell_less(world));
-  // Standard input can be read once only.
-  if (options.frames != "-") text += first_frame(options, world, Hiding::voxel);
+  if (!reads_once(options.frames)) text += first_frame(options, world, Hiding::voxel);
   text += first_frame(options, world, Hiding::silhouette);
   if (!options.baked.empty()) text += baked_text(options.baked, world.scene);
   std::fputs(text.c_str(), stdout);

@@ -31,7 +31,7 @@ Survey survey_world(const Scene& scene, const std::string& frames) {
     survey.objects.push_back(object.object);
     add_extent(object.object, survey.extent);
   }
-  if (frames.empty() || frames == "-") {
+  if (frames.empty() || reads_once(frames)) {
     survey.frames = frames.empty() ? 1 : 0;
     return survey;
   }
@@ -48,7 +48,7 @@ Survey survey_world(const Scene& scene, const std::string& frames) {
 }
 
 std::uint64_t count_frames(const std::string& path) {
-  if (path.empty() || path == "-") return 0;
+  if (path.empty() || reads_once(path)) return 0;
   TextReader reader(path);
   std::uint64_t lines = 0;
   for (std::string line; reader.line(line);) ++lines;

@@ -18,11 +18,11 @@ struct Survey {
   Bounds extent{};                ///< everything they ever touched
 };
 
-/// `frames` may be "" (none) or "-": then only the scene counts, since standard input is read once.
+/// `frames` may be "" (none), or standard input or a pipe (reads_once()): then only the scene counts.
 /// Throws what readers and World throw, Stopped on Ctrl-C.
 Survey survey_world(const Scene& scene, const std::string& frames);
 
-/// Lines of a frames file but its first; for progress bars. "-" and "" have none.
+/// Lines of a frames file but its first; for progress bars. "" and what reads_once() have none.
 std::uint64_t count_frames(const std::string& path);
 
 }  // namespace gridcull

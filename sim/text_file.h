@@ -35,11 +35,18 @@ class TextReader {
   std::unique_ptr<Detail> detail_;
 };
 
+/// Whether a file can be read but once: "-", and what is there but is no plain file (a pipe, a terminal).
+bool reads_once(const std::string& path);
+
 /// The whole file.
 std::string read_text(const std::string& path);
 
-/// Writes a file beside its name and puts it there on commit(); without commit() nothing is left. Standard
-/// output and things that are not plain files (/dev/null, pipes) are written directly. Throws Error(io).
+/// Where a file written under this name goes: symbolic links are followed, to what is not there yet too.
+std::string write_target(const std::string& path);
+
+/// Writes a file beside its name (a link's: beside its target) and puts it there on commit(); without commit() nothing
+/// is left. Standard output and things that are not plain files (/dev/null, pipes) are written directly. Throws
+/// Error(io).
 class TextWriter {
  public:
   explicit TextWriter(const std::string& path);

@@ -1,5 +1,7 @@
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -137,6 +139,13 @@ bool TextReader::line(std::string& out) {
 
 std::uint64_t TextReader::line_number() const { return detail_->lines; }
 const std::string& TextReader::name() const { return detail_->name; }
+
+bool reads_once(const std::string& path) {
+  if (path == "-") return true;
+  std::error_code none;
+  const std::filesystem::file_status status = std::filesystem::status(path, none);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
 
 std::string read_text(const std::string& path) {
   TextReader reader(path);

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -38,7 +39,7 @@ struct TextWriter::Detail {
   std::FILE* plain = nullptr;
   gzFile packed = nullptr;
 
-  explicit Detail(const std::string& name) : path(name), target(name) {
+  explicit Detail(const std::string& name) : path(name), target(write_target(name)) {
     if (path == "-") {
       plain = stdout;
       return;
@@ -68,12 +69,14 @@ struct TextWriter::Detail {
     std::error_code none;
     const fs::file_status status = fs::status(path, none);
     if (fs::is_directory(status)) refuse(path, "it is a folder");
+    if (fs::is_symlink(fs::symlink_status(target, none))) {
+      errno = ELOOP;
+      return -1;
+    }
     if (!fs::exists(status)) return open_beside(target, temporary);
     if (!fs::is_regular_file(status)) return ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     // Renaming needs no right to write the file itself: respect its protection all the same.
     if (::access(path.c_str(), W_OK) != 0) return -1;
-    const fs::path real = fs::canonical(path, none);
-    if (!none) target = real.string();
     return open_beside(target, temporary);
   }
 
@@ -91,6 +94,18 @@ struct TextWriter::Detail {
     temporary.clear();
   }
 };
+
+std::string write_target(const std::string& path) {
+  constexpr int most_links = 40;  // as many as the system follows
+  fs::path at = path;
+  std::error_code none;
+  for (int links = 0; links < most_links && fs::is_symlink(fs::symlink_status(at, none)); ++links) {
+    const fs::path to = fs::read_symlink(at, none);
+    if (none) break;
+    at = to.is_absolute() ? to : at.parent_path() / to;
+  }
+  return at.string();
+}
 
 TextWriter::TextWriter(const std::string& path) : detail_(std::make_unique<Detail>(path)) {}
 TextWriter::~TextWriter() = default;

@@ -138,6 +138,22 @@ TEST_CASE("links are followed and devices written to, not replaced") {
   CHECK(std::filesystem::is_character_file("/dev/null"));
 }
 
+TEST_CASE("a link to what is not there yet is followed") {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("second", folder.file("first"));
+  std::filesystem::create_symlink(folder.file("target.txt"), folder.file("second"));
+  write_text(folder.file("first"), "new");
+  CHECK(std::filesystem::is_symlink(folder.file("first")));
+  CHECK(std::filesystem::is_symlink(folder.file("second")));
+  CHECK(content_of(folder.file("target.txt")) == "new");
+  CHECK(folder.entries() == 3);
+  std::filesystem::create_symlink("no/such", folder.file("astray"));
+  CHECK(holds(refusal(ErrorCode::io, [&] { write_text(folder.file("astray"), "new"); }), "astray: cannot be written"));
+  std::filesystem::create_symlink("loop", folder.file("loop"));
+  CHECK(holds(refusal(ErrorCode::io, [&] { write_text(folder.file("loop"), "new"); }), "loop: cannot be written"));
+  CHECK(folder.entries() == 5);
+}
+
 TEST_CASE("a full disk is refused") {
   const auto fill = [](const std::string& path) {
     return refusal(ErrorCode::io, [&] { write_text(path, std::string(1 << 20, 'x')); });
