@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "gridcull/core/error.h"
 #include "gridcull/sim/json_text.h"
@@ -99,6 +100,12 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (fault != std::errc{} || end != text.data() + text.size() || !(std::fabs(value) <= 1e9)) return std::nullopt;
   return value;
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
 }
 
 std::string quoted(std::string_view text) {

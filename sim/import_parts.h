@@ -72,6 +72,9 @@ std::optional<Bounds> whole_metres(const Bounds& bounds);
 /// A finite number of magnitude at most 1e9 that is all of the text.
 std::optional<double> parse_number(std::string_view text);
 
+/// At most six significant digits, for a message.
+std::string short_number(double value);
+
 /// Quoted for a message, on one line.
 std::string quoted(std::string_view text);
 

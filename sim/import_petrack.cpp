@@ -41,13 +41,16 @@ class Reader {
       else
         read_row(line);
     }
+    if (reader_.line_number() == 0) refuse("expected header lines and rows, found an empty file");
     if (out_.samples.empty()) check_header();
     return std::move(out_);
   }
 
  private:
   [[noreturn]] void refuse(const std::string& why) const {
-    throw Error(ErrorCode::bad_message, reader_.name() + ":" + std::to_string(reader_.line_number()) + ": " + why);
+    const std::uint64_t line = reader_.line_number();  // 0: the file is empty
+    const std::string where = line > 0 ? ":" + std::to_string(line) : "";
+    throw Error(ErrorCode::bad_message, reader_.name() + where + ": " + why);
   }
   void check_header() const {
     if (!(out_.frame_rate > 0.0)) refuse("expected a header line \"# framerate: 25 fps\" before the first row");
@@ -144,14 +147,16 @@ void sort_and_turn(Tracks& tracks, const std::string& path) {
 void check(const PetrackOptions& options) {
   const auto positive = [](double value, const char* what) {
     if (!(value > 0.0 && value <= 1e9)) {
-      throw Error(ErrorCode::usage, std::string(what) + ": expected a number above 0 and at most 1e9");
+      throw Error(ErrorCode::usage,
+                  std::string(what) + ": expected a number above 0 and at most 1e9, found " + short_number(value));
     }
   };
   positive(options.radius, "radius");
-  positive(options.max_speed, "max speed");
+  positive(options.max_speed, "max-speed");
   positive(options.range, "range");
   if (!(options.fov_degrees > 0.0 && options.fov_degrees <= 360.0)) {
-    throw Error(ErrorCode::usage, "field of view: expected degrees above 0 and at most 360");
+    throw Error(ErrorCode::usage,
+                "fov-degrees: expected degrees above 0 and at most 360, found " + short_number(options.fov_degrees));
   }
 }
 

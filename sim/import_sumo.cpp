@@ -15,14 +15,15 @@ namespace {
 
 void check_positive(double value, const char* what) {
   if (value > 0.0 && value <= 1e9) return;
-  throw Error(ErrorCode::usage, std::string(what) + ": expected a number above 0 and at most 1e9");
+  std::string text = std::string(what) + ": expected a number above 0 and at most 1e9, found ";
+  throw Error(ErrorCode::usage, text + short_number(value));
 }
 
 void check(const SumoOptions& options) {
-  check_positive(options.vehicle_size.x, "vehicle size: length");
-  check_positive(options.vehicle_size.y, "vehicle size: width");
-  check_positive(options.person_radius, "person radius");
-  check_positive(options.max_speed, "max speed");
+  check_positive(options.vehicle_size.x, "vehicle-size: length");
+  check_positive(options.vehicle_size.y, "vehicle-size: width");
+  check_positive(options.person_radius, "person-radius");
+  check_positive(options.max_speed, "max-speed");
   check_positive(options.person_max_speed, "max speed of persons");
   if (options.range) check_positive(*options.range, "range");
   if (options.every < 1) throw Error(ErrorCode::usage, "every: expected at least 1, found 0");
@@ -31,7 +32,9 @@ void check(const SumoOptions& options) {
     if (!(std::fabs(side) <= 1e9)) throw Error(ErrorCode::usage, "box: expected numbers of magnitude at most 1e9");
   }
   if (!((*options.box)[0] < (*options.box)[2] && (*options.box)[1] < (*options.box)[3])) {
-    throw Error(ErrorCode::usage, "box: expected x0,y0,x1,y1 with x0 < x1 and y0 < y1");
+    std::string found;
+    for (const double side : *options.box) found += (found.empty() ? "" : ",") + short_number(side);
+    throw Error(ErrorCode::usage, "box: expected x0,y0,x1,y1 with x0 < x1 and y0 < y1, found " + found);
   }
 }
 

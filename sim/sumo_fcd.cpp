@@ -31,6 +31,7 @@ FcdReader::FcdReader(const std::string& path) : reader_(path) {
     else
       break;
   }
+  if (cut_inside("<fcd-export")) refuse("expected <fcd-export>, found the end of the file (cut short?)");
   if (!begins("<fcd-export")) refuse("expected XML with the element <fcd-export>, found something else");
   const std::size_t end = find(">", at_, "<fcd-export>");
   ended_ = buffer_[end - 1] == '/';
@@ -67,6 +68,10 @@ bool FcdReader::begins(std::string_view token) {
   return std::string_view(buffer_).substr(at_).starts_with(token);
 }
 
+bool FcdReader::cut_inside(std::string_view token) {
+  return !begins(token) && token.starts_with(std::string_view(buffer_).substr(at_));
+}
+
 void FcdReader::consume(std::size_t to) {
   line_ += newlines(std::string_view(buffer_).substr(at_, to - at_));
   at_ = to;
@@ -95,7 +100,8 @@ bool FcdReader::next(FcdStep& out, bool skip) {
     ended_ = true;
     return false;
   }
-  if (at_ == buffer_.size()) refuse("expected </fcd-export>, found the end of the file (cut short?)");
+  if (cut_inside("</fcd-export") || cut_inside("<timestep") || cut_inside("<!--"))
+    refuse("expected </fcd-export>, found the end of the file (cut short?)");
   if (!begins("<timestep")) refuse("expected <timestep> or </fcd-export>, found something else");
   // find() may move the buffer: positions are kept relative to at_.
   const std::size_t tag = find(">", at_, "<timestep>") - at_;

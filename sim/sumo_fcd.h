@@ -36,6 +36,8 @@ class FcdReader {
   bool more();
   std::size_t find(std::string_view token, std::size_t from, const char* inside);
   bool begins(std::string_view token);
+  /// Whether the file ends before this token is whole, right at its begin included.
+  bool cut_inside(std::string_view token);
   void skip_space_and_comments();
   void consume(std::size_t to);
   void read_step(std::size_t size, FcdStep& out) const;

@@ -217,8 +217,9 @@ TEST_CASE("bad options are refused") {
   CHECK(said("cubes", {}) == "no generated scene is called \"cubes\": expected spheres, city, discs, town or maze");
   CHECK(said("maze", {.count = 0}).starts_with("count: "));
   CHECK(said("city", {.blocks = 0}).starts_with("blocks: "));
-  CHECK(said("discs", {.range = -1.0}).starts_with("range: "));
+  CHECK(said("discs", {.range = -1.0}).starts_with("range: expected metres above 0 and at most 1e9, found -1"));
   CHECK(said("discs", {.cell = 0.0}).starts_with("cell: "));
+  CHECK(said("discs", {.cell = 1e10}) == "cell: expected metres above 0 and at most 1e9, found 1e+10");
   CHECK(said("discs", {.frames = 0}).starts_with("frames: "));
   CHECK(said("discs", {.count = 4'000'000'000u}).starts_with("count: "));
 }

@@ -229,6 +229,7 @@ TEST_CASE("floating-car data cut anywhere are refused") {
     CAPTURE(size);
     CAPTURE(line);
     REQUIRE(line.starts_with(folder.file("fcd.xml") + ":"));
+    REQUIRE(line.ends_with(", found the end of the file (cut short?)"));
   }
   CHECK(refusal(ErrorCode::bad_message, [&] { import({}, folder, fcd.substr(0, fcd.find("52.00"))); }) ==
         folder.file("fcd.xml") + ":10: expected the end of <timestep>, found the end of the file (cut short?)");
@@ -269,7 +270,7 @@ TEST_CASE("bad buildings and options are refused") {
   };
   CHECK(refused({.box = {{5.0, 0.0, 5.0, 9.0}}}).starts_with("box: "));
   CHECK(refused({.range = 0.0}).starts_with("range: "));
-  CHECK(refused({.vehicle_size = {5.0, -1.0}}).starts_with("vehicle size: width"));
+  CHECK(refused({.vehicle_size = {5.0, -1.0}}).starts_with("vehicle-size: width"));
   CHECK(refused({.every = 0}).starts_with("every: "));
   SumoOptions missing;
   missing.fcd = folder.file("none.xml");
