@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include <nlohmann/json.hpp>
+
 namespace gridcull {
 
 SvgFrame frame_for(const View& view, const Lattice& lattice, const Vec2& corner, double greatest_side) {
@@ -36,8 +38,14 @@ std::string px(double value) {
 }
 
 std::string escaped(const std::string& text) {
+  // XML must be UTF-8, and knows control characters in no way but as tab and line ends.
+  const std::string json = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   std::string out;
-  for (const char c : text) {
+  for (const char c : nlohmann::json::parse(json).get<std::string>()) {
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') {
+      out += "\uFFFD";
+      continue;
+    }
     switch (c) {
       case '&': out += "&amp;"; break;
       case '<': out += "&lt;"; break;

@@ -30,7 +30,7 @@ SvgFrame frame_for(const View& view, const Lattice& lattice, const Vec2& corner,
 /// Pixels with one decimal, no trailing zero.
 std::string px(double value);
 
-/// Text with & < > " replaced.
+/// Text with & < > " replaced, and what may not stand in XML (bytes that are no UTF-8, control characters) by U+FFFD.
 std::string escaped(const std::string& text);
 
 /// Path data of an outline in pixels.

@@ -17,6 +17,12 @@ TEST_CASE("pixels have one decimal and no trailing zero") {
 
 TEST_CASE("text in SVG is escaped") { CHECK(escaped("a<b>&\"c\"") == "a&lt;b&gt;&amp;&quot;c&quot;"); }
 
+TEST_CASE("what may not stand in XML is replaced") {
+  CHECK(escaped("a\xff-\xc3\xa9.json") == "a\xef\xbf\xbd-\xc3\xa9.json");
+  CHECK(escaped("cut \xc3") == "cut \xef\xbf\xbd");
+  CHECK(escaped("a\x01\tb\x1f") == "a\xef\xbf\xbd\tb\xef\xbf\xbd");
+}
+
 TEST_CASE("numbers for people") {
   CHECK(number_text(2.0) == "2");
   CHECK(number_text(0.1 + 0.2) == "0.3");
