@@ -57,7 +57,7 @@ Frustum read_frustum(const JsonRef& json) {
   const char* expected = "degrees above 0 and below 180";
   out.fov_y = radians_of(fov.within(0.0, 180.0, expected));
   if (!(out.fov_y > 0.0 && out.fov_y < std::numbers::pi)) fov.refuse(expected);
-  out.aspect = json.at("aspect").positive();
+  out.aspect = json.at("aspect").within(1e-6, 1e6, "an aspect of 1e-6 to 1e6");
   if (const auto near = json.find("near")) out.near = near->not_negative();
   if (const auto far = json.find("far")) {
     out.far = far->positive();
