@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "gridcull/core/quick_hull.h"
+#include "gridcull/core/simplex.h"
 #include "gridcull/core/world_points.h"
 
 namespace gridcull {

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "gridcull/core/bounding_ball.h"
 #include "gridcull/core/convex_boundary.h"
 
 namespace gridcull {
@@ -15,10 +14,6 @@ namespace gridcull {
 /// give a polygon with two faces, on one line the two ends, equal ones one point. 2D (z = 0): the polygon alone.
 /// Expected O(n log n) for points in no special order.
 ConvexBoundary hull_boundary(std::span<const Vec3> points, int dimension);
-
-/// A ball that lies in the hull of the points: one in a tetrahedron (2D: triangle) of points far from each other.
-/// Radius 0 where they are nearly flat: below 2^-20 of their coordinates.
-Ball ball_inside(std::span<const Vec3> points, int dimension);
 
 /// Indices of the hull of the points' coordinates `x` and `y` (0, 1 or 2): strictly convex, counter-clockwise, exact
 /// (A. M. Andrew's monotone chain, 1979). Two where all lie on a line, one where all are equal.

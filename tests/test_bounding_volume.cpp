@@ -324,11 +324,9 @@ TEST_CASE("points far from the origin, close together") {
 
 TEST_CASE("a volume re-fitted under a turn is looser than one made anew, and not by more than its corners") {
   std::mt19937_64 random(14);
-  const Shape ball = Convex{[&] {
-    std::vector<Vec3> points;
-    for (int i = 0; i < 400; ++i) points.push_back(glm::normalize(cube(random) + Vec3(1e-9)));
-    return points;
-  }()};
+  Convex many;
+  for (int i = 0; i < 400; ++i) many.vertices.push_back(glm::normalize(cube(random) + Vec3(1e-9)));
+  const Shape ball(many);
   const Pose pose{{5, 6, 7}, normalised({0.8, 0.1, 0.5, 0.3})};
   for (const BoundKind kind : {BoundKind::box, BoundKind::dop14, BoundKind::dop18, BoundKind::dop26}) {
     CAPTURE(name_of(kind));
