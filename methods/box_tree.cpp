@@ -38,6 +38,19 @@ void BoxTree::split(std::vector<Item>& items, std::uint32_t first, std::uint32_t
   split(items, first + half, count - half);
 }
 
+void BoxTree::add_at(std::uint32_t at, const Vec3& point, std::vector<std::uint32_t>& out) const {
+  const Node& node = nodes_[at];
+  for (int k = 0; k < 3; ++k) {
+    if (!(node.box.min[k] <= point[k] && point[k] <= node.box.max[k])) return;
+  }
+  if (node.right == 0) {
+    out.insert(out.end(), names_.begin() + node.first, names_.begin() + node.first + node.count);
+    return;
+  }
+  add_at(at + 1, point, out);
+  add_at(node.right, point, out);
+}
+
 double BoxTree::total_surface() const {
   double sum = 0.0;
   for (const Node& node : nodes_) {

@@ -35,6 +35,11 @@ class BoxTree {
     return total_surface() > looseness * built_surface_;
   }
 
+  /// Appends the names of the items of all leaves whose box holds the point.
+  void add_at(const Vec3& point, std::vector<std::uint32_t>& out) const {
+    if (!nodes_.empty()) add_at(0, point, out);
+  }
+
   bool empty() const { return nodes_.empty(); }
   const Node& node(std::uint32_t i) const { return nodes_[i]; }
   std::span<const std::uint32_t> names(const Node& node) const {
@@ -45,6 +50,7 @@ class BoxTree {
   static constexpr double looseness = 1.5;
 
   void split(std::vector<Item>& items, std::uint32_t first, std::uint32_t count);
+  void add_at(std::uint32_t at, const Vec3& point, std::vector<std::uint32_t>& out) const;
   double total_surface() const;
   template <class BoxOf>
   void fit(std::size_t i, const BoxOf& box_of) {

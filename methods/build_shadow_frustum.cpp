@@ -86,6 +86,7 @@ bool ShadowFrustum::build(const OccluderPart& part, const Pose& pose, const Rota
   sides_.clear();
   faces_.clear();
   points_.clear();
+  silhouette_.clear();
   has_near_ = cone_ = false;
   const double blur = blur_of(pose.position, part.reach, eye);
   if (part.kind == Kind::ball) return build_ball(part, pose, eye, blur);
@@ -143,7 +144,10 @@ bool ShadowFrustum::build_face(double blur) {
 /// Sides of a loop run either way round; the loop's middle must be within all of them.
 bool ShadowFrustum::add_sides(std::span<const std::uint16_t> loop, double blur) {
   Vec3 middle(0.0);
-  for (const std::uint16_t i : loop) middle += points_[i];
+  for (const std::uint16_t i : loop) {
+    middle += points_[i];
+    if (!cone_) silhouette_.push_back(points_[i]);
+  }
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Vec3 &a = points_[loop[i]], &b = points_[loop[(i + 1) % loop.size()]];
     const Vec3 n = glm::cross(b, a);

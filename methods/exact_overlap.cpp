@@ -24,9 +24,9 @@ struct Piece {
 };
 
 /// All planes: `outside` where one parts them, `inside` where the nearest corner passes all.
-Overlap against_planes(std::span<const HalfSpace> planes, const TurnedBox& box, Operations& done) {
+Overlap against_planes(std::span<const ShadowPlane> planes, const TurnedBox& box, Operations& done) {
   bool inside = true;
-  for (const HalfSpace& plane : planes) {
+  for (const ShadowPlane& plane : planes) {
     Vec3 n = plane.normal;
     if (!box.along_axes) {
       n = {glm::dot(n, box.axes[0]), glm::dot(n, box.axes[1]), glm::dot(n, box.axes[2])};
@@ -64,9 +64,9 @@ bool edge_meets_box(const VolumeEdge& edge, const TurnedBox& box, Operations& do
 }
 
 /// One edge of the box from a corner along an axis against all planes.
-bool edge_meets_volume(std::span<const HalfSpace> planes, const Vec3& from, const Vec3& along, Operations& done) {
+bool edge_meets_volume(std::span<const ShadowPlane> planes, const Vec3& from, const Vec3& along, Operations& done) {
   Piece piece;
-  for (const HalfSpace& plane : planes) {
+  for (const ShadowPlane& plane : planes) {
     const double at = glm::dot(plane.normal, from) - plane.offset, speed = glm::dot(plane.normal, along);
     done.dots += 2;
     piece.clip(at, speed);
@@ -77,7 +77,7 @@ bool edge_meets_volume(std::span<const HalfSpace> planes, const Vec3& from, cons
   return !piece.empty();
 }
 
-bool box_edges_meet(std::span<const HalfSpace> planes, const TurnedBox& box, Operations& done) {
+bool box_edges_meet(std::span<const ShadowPlane> planes, const TurnedBox& box, Operations& done) {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
     const auto half = [&](std::size_t i) { return box.half[static_cast<int>(i)] * box.axes[i]; };
@@ -93,7 +93,7 @@ bool box_edges_meet(std::span<const HalfSpace> planes, const TurnedBox& box, Ope
 
 }  // namespace
 
-Overlap exact_overlap(std::span<const HalfSpace> planes, std::span<const VolumeEdge> edges, const TurnedBox& box,
+Overlap exact_overlap(std::span<const ShadowPlane> planes, std::span<const VolumeEdge> edges, const TurnedBox& box,
                       Operations& done) {
   const Overlap rough = against_planes(planes, box, done);
   if (rough != Overlap::partial) return rough;
@@ -101,6 +101,18 @@ Overlap exact_overlap(std::span<const HalfSpace> planes, std::span<const VolumeE
     if (edge_meets_box(edge, box, done)) return Overlap::partial;
   }
   return box_edges_meet(planes, box, done) ? Overlap::partial : Overlap::outside;
+}
+
+/// The volume is the cone from the viewpoint, without near plane.
+bool lies_beside(const ShadowFrustum& frustum, const SightBox& box, std::vector<VolumeEdge>& scratch,
+                 Operations& done) {
+  if (frustum.is_cone() || frustum.silhouette().size() < 3) return false;
+  scratch.clear();
+  for (const Vec3& ray : frustum.silhouette()) scratch.push_back({Vec3(0.0), ray, true});
+  TurnedBox turned;
+  turned.centre = box.centre;
+  turned.half = box.half;
+  return exact_overlap(frustum.sides(), scratch, turned, done) == Overlap::outside;
 }
 
 }  // namespace gridcull

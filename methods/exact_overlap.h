@@ -11,8 +11,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "gridcull/core/half_space.h"
 #include "gridcull/methods/shadow_frustum.h"
 
 namespace gridcull {
@@ -38,7 +38,11 @@ struct VolumeEdge {
   bool endless = false;
 };
 
-Overlap exact_overlap(std::span<const HalfSpace> planes, std::span<const VolumeEdge> edges, const TurnedBox& box,
+/// `planes`: normals inwards, without margins; `edges`: all of the volume's.
+Overlap exact_overlap(std::span<const ShadowPlane> planes, std::span<const VolumeEdge> edges, const TurnedBox& box,
                       Operations& done);
+
+/// Whether no ray from the viewpoint through the box runs within the frustum's sides, exactly; not asked of cones.
+bool lies_beside(const ShadowFrustum& frustum, const SightBox& box, std::vector<VolumeEdge>& scratch, Operations& done);
 
 }  // namespace gridcull

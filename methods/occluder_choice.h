@@ -17,7 +17,7 @@ namespace gridcull {
 /// of all directions covered, of the static objects hidden from nearby viewpoints, of all objects hidden in the
 /// viewer's last frame.
 struct OccluderWeights {
-  double angle = 1.0, sampled = 0.0, recent = 0.0;
+  double angle = 1.0, sampled = 1.0, recent = 1.0;
 };
 
 /// A candidate and what it is worth.

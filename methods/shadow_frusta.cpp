@@ -78,7 +78,7 @@ class ShadowFrusta final : public Culler {
     const auto frusta = choice_.choose(world_, view, test.volume(), holders_);
     answer.work.occluders = frusta.size();
     stats.occlude_us += lap.next();
-    walk_.begin({&world_, holders_, frusta, &test, view.rides, options_.unions}, answer);
+    walk_.begin({&world_, holders_, frusta, &test, view.rides, options_.unions, options_.exact}, answer);
     walk_.run(world_.static_tree());
     walk_.run(world_.moving_tree());
     choice_.learn(walk_.hidden_by());
@@ -86,21 +86,20 @@ class ShadowFrusta final : public Culler {
     stats.traverse_us += lap.next();
   }
 
+  /// By place, of both hierarchies.
   void find_holders(const Vec3& eye) {
-    const std::size_t count = world_.flat().objects().size();
-    if (all_.size() != count) {
-      all_.resize(count);
-      for (std::uint32_t i = 0; i < all_.size(); ++i) all_[i] = i;
-    }
+    near_.clear();
     holders_.clear();
-    world_.flat().add_holders(eye, all_, holders_);
+    world_.static_tree().add_at(eye, near_);
+    world_.moving_tree().add_at(eye, near_);
+    world_.flat().add_holders(eye, near_, holders_);
   }
 
   ShadowFrustaOptions options_;
   ShadowWorld world_;
   OccluderChoice choice_;
   ShadowWalk walk_{};
-  std::vector<std::uint32_t> all_{}, holders_{};
+  std::vector<std::uint32_t> near_{}, holders_{};
 };
 
 }  // namespace

@@ -12,6 +12,8 @@ struct ShadowFrustaOptions {
   int dimension = 3;
   int occluders = 8;   ///< used at most, each frame and viewer: 1 .. 64
   bool unions = true;  ///< whether two occluders may hide an object together
+  /// Whether boxes beside a frustum are recognised exactly (section 5.3) instead of plane by plane.
+  bool exact = false;
   OccluderWeights weights{};
 };
 

@@ -102,9 +102,8 @@ class ShadowFrustum {
   bool holds_ray(const Vec3& ray, double length, double error, std::uint64_t& plane_tests) const;
 
   bool is_cone() const { return cone_; }
-  std::span<const ShadowPlane> faces() const { return faces_; }
-  const ShadowPlane& near_plane() const { return near_; }
-  bool has_near_plane() const { return has_near_; }
+  /// The silhouette's points, in order; in 2D and for balls none.
+  std::span<const Vec3> silhouette() const { return silhouette_; }
 
  private:
   bool build_ball(const OccluderPart& part, const Pose& pose, const Vec3& eye, double blur);
@@ -123,6 +122,7 @@ class ShadowFrustum {
   std::vector<Vec3> points_{};        ///< of the part, in sight coordinates
   std::vector<ShadowPlane> sides_{};  ///< offset and base 0
   std::vector<ShadowPlane> faces_{};  ///< empty: too many, only the near plane counts
+  std::vector<Vec3> silhouette_{};
   ShadowPlane near_{};
   bool has_near_ = false;
   // A ball's cone: p.axis sin - |p x axis| cos >= slope |p|.

@@ -47,13 +47,22 @@ template <class Occludee>
 bool ShadowWalk::hides(const Occludee& occludee, std::uint64_t& active, std::uint64_t objects) {
   for (std::uint64_t left = active; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
-    const Overlap place = task_.frusta[k]->overlap(occludee, answer_->work.rasters);
+    Overlap place = task_.frusta[k]->overlap(occludee, answer_->work.rasters);
+    if (task_.exact && place == Overlap::partial && lies_beside(*task_.frusta[k], occludee)) place = Overlap::outside;
     if (place == Overlap::outside) active &= ~(std::uint64_t{1} << k);
     if (place != Overlap::inside) continue;
     hidden_by_[k] += objects;
     return true;
   }
   return false;
+}
+
+/// Each of its scalar products is counted as a test against a plane.
+bool ShadowWalk::lies_beside(const ShadowFrustum& frustum, const SightBox& box) {
+  Operations done;
+  const bool beside = gridcull::lies_beside(frustum, box, edges_, done);
+  answer_->work.rasters += done.dots;
+  return beside;
 }
 
 void ShadowWalk::visit(const BoxTree& tree, std::uint32_t at, std::uint64_t active) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gridcull/core/culler.h"
+#include "gridcull/methods/exact_overlap.h"
 #include "gridcull/methods/image_polygon.h"
 #include "gridcull/methods/shadow_frustum.h"
 #include "gridcull/methods/shadow_world.h"
@@ -25,7 +26,7 @@ class ShadowWalk {
     std::span<const ShadowFrustum* const> frusta{};
     const ViewTest* test = nullptr;
     ObjectId rides = no_id;
-    bool unions = true;
+    bool unions = true, exact = false;
   };
 
   /// Forgets the last view.
@@ -43,6 +44,8 @@ class ShadowWalk {
   bool may_be_in_view(const SightBox& box) const;
   template <class Occludee>
   bool hides(const Occludee& occludee, std::uint64_t& active, std::uint64_t objects);
+  bool lies_beside(const ShadowFrustum& frustum, const SightBox& box);
+  bool lies_beside(const ShadowFrustum&, const SightBall&) { return false; }
   bool hides_outline(const FlatObject& flat, const SightBox& box, std::uint64_t active);
   bool hides_together(std::span<const std::uint32_t> numbers);
 
@@ -54,6 +57,7 @@ class ShadowWalk {
   std::uint64_t hidden_by_unions_ = 0;
   ImagePolygon polygon_{};
   UnionScratch scratch_{};
+  std::vector<VolumeEdge> edges_{};
   std::vector<Vec3> points_{};
   std::vector<std::uint32_t> beyond_{};
   std::vector<std::uint64_t> within_{};

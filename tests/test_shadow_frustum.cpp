@@ -34,27 +34,51 @@ struct Counts {
   int frusta = 0, refused = 0, inside = 0, partial = 0, outside = 0;
 };
 
+/// Weights of the part's points, positive: anywhere in its hull, near a corner, or on the line of two corners, which is
+/// where shadows end, but for rounding.
+std::vector<double> weights(std::size_t count, std::mt19937_64& random) {
+  std::vector<double> out(count, 0.0);
+  const int kind = static_cast<int>(random() % 3);
+  const std::size_t first = random() % count, second = random() % count;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (kind == 0) out[i] = unit(random) + 1e-9;
+    if (kind == 1) out[i] = i == first ? 1.0 : 1e-3 * unit(random);
+    if (kind == 2 && (i == first || i == second)) out[i] = unit(random) + 1e-9;
+  }
+  return out;
+}
+
 /// A point in or near the shadow of the part, often at its border and close behind it.
 Vec3 near_shadow(const OccluderPart& part, const Pose& pose, const Vec3& eye, std::mt19937_64& random) {
   const Rotation r = rotation_of(pose.orientation);
+  std::vector<Vec3> points = part.vertices;
+  if (points.empty()) {  // a ball: in it, or where rays touch it
+    const Vec3 to_eye = eye - pose.position;
+    const double d = glm::length(to_eye), share = part.radius / d;
+    const Vec3 across = glm::normalize(glm::cross(to_eye, cube(random)));
+    points = {part.radius * cube(random), part.radius * cube(random)};
+    if (random() % 2 == 0 && share < 1.0) {
+      points = {part.radius * (share * to_eye / d + std::sqrt(1.0 - share * share) * across)};
+    }
+  }
+  const std::vector<double> weight = weights(points.size(), random);
   Vec3 p(0.0);
   double sum = 0.0;
-  const bool border = random() % 2 == 0;
-  const std::vector<Vec3> ball{part.radius * cube(random), part.radius * cube(random)};
-  const std::vector<Vec3>& points = part.vertices.empty() ? ball : part.vertices;
-  const std::size_t first = random() % points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double weight = border && i != first ? 1e-3 * unit(random) : unit(random) + 1e-9;
-    p += weight * (to_world(pose, r, points[i]) - eye);
-    sum += weight;
+    p += weight[i] * (to_world(pose, r, points[i]) - eye);
+    sum += weight[i];
   }
   p /= sum;
-  const double stretch = random() % 3 == 0 ? 1.0 + std::pow(2.0, -30.0 * unit(random)) : 1.0 + 9.0 * unit(random);
+  const int kind = static_cast<int>(random() % 4);
+  const double stretch = kind == 0   ? 1.0
+                         : kind == 1 ? 1.0 + std::pow(2.0, -52.0 * unit(random))
+                                     : 1.0 + 9.0 * unit(random);
   return eye + stretch * p;
 }
 
 Bounds box_about(const Vec3& p, double scale, std::mt19937_64& random) {
-  const Vec3 half = scale * std::pow(2.0, -30.0 * unit(random)) * (0.5 + 0.5 * cube(random));
+  if (random() % 3 == 0) return {p, p};
+  const Vec3 half = scale * std::pow(2.0, -50.0 * unit(random)) * (0.5 + 0.5 * cube(random));
   return {p - half, p + half};
 }
 
@@ -73,6 +97,16 @@ void check_box(const ShadowFrustum& frustum, const Bounds& box, const Vec3& eye,
   }
 }
 
+/// The truth leaves out crossings of faces that the viewer sees edge-on but for rounding.
+bool is_edge_on(const OccluderPart& part, const Pose& pose, const Vec3& eye) {
+  if (part.kind != OccluderPart::Kind::face) return false;
+  const Rotation r = rotation_of(pose.orientation);
+  std::vector<Long3> p;
+  for (const Vec3& v : part.vertices) p.push_back(longer(to_world(pose, r, v)) - longer(eye));
+  const Long3 normal = cross(p[1] - p[0], p[2] - p[0]);
+  return std::fabs(dot(normal, p[0])) <= 1e-9L * length(normal) * length(p[0]);
+}
+
 void check_placement(const Placement& placed, std::mt19937_64& random, Counts& counts) {
   const RayTruth truth(placed.shape, placed.pose, placed.eye);
   if (truth.holds_eye()) return;
@@ -80,6 +114,7 @@ void check_placement(const Placement& placed, std::mt19937_64& random, Counts& c
   for (const OccluderPart& part : make_occluder_parts(placed.shape)) {
     ShadowFrustum frustum;
     SilhouetteTrack track;
+    if (is_edge_on(part, placed.pose, placed.eye)) continue;
     if (!frustum.build(part, placed.pose, rotation, placed.eye, track)) {
       ++counts.refused;
       continue;

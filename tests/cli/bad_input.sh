@@ -169,6 +169,9 @@ refused "0 threads" "threads" run s.json --threads 0 "${everything[@]}"
 refused "257 threads" "threads" run s.json --threads 257 "${everything[@]}"
 refused "unknown kind of TBV" "tbv" run s.json --tbv square "${everything[@]}"
 refused "unknown kind of TBV, frustum" "tbv" run s.json --method frustum --tbv square "${everything[@]}"
+for bad in 0 -3 65 many 8.5 ""; do
+  refused "occluders '$bad'" "occluders" run s.json --method shadow-frusta --occluders "$bad" "${everything[@]}"
+done
 refused "no rays" "rays" check s.json --rays 0
 refused "picture without a file" "picture" run s.json --picture 1:2
 refused "unknown scene to make" "volcano" make volcano --out out/v

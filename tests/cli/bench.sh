@@ -48,6 +48,8 @@ r "unknown method" "magic" --methods magic
 r "a method that takes no such scene" "none of them" --scenes discs:5 --methods depth-rays
 r "0 threads" "threads" --threads 0
 r "10,000 threads" "threads" --threads 1,10000
+r "0 occluders" "occluders" --occluders 0
+r "occluders by name" "occluders" --occluders 1,many
 r "resolution 0" "resolution" --resolutions 0
 r "resolution below 0" "resolution" --resolutions -5
 r "resolution above 8192" "resolution" --resolutions 128x72,8193
