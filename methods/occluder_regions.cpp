@@ -68,9 +68,9 @@ double greatest_area_angle(const ShadowWorld& world, const PartEntry& entry, con
 }
 
 void OccluderRegions::begin_frame(const ShadowWorld& world) {
-  if (static_version_ == world.static_version() && entries_version_ == world.entries_version()) return;
+  // Static entries come first in the world's list: movers that come and go leave their numbers alone.
+  if (static_version_ == world.static_version()) return;
   static_version_ = world.static_version();
-  entries_version_ = world.entries_version();
   regions_.clear();
   worked_out_ = 0;
   if (world.static_count() == 0 || world.static_tree().empty()) return;

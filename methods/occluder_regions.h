@@ -50,7 +50,7 @@ class OccluderRegions {
   int cells_[3] = {1, 1, 1};
   std::vector<Region> regions_{};
   std::size_t worked_out_ = 0;
-  std::uint64_t static_version_ = 0, entries_version_ = 0;
+  std::uint64_t static_version_ = 0;
   ShadowFrustum frustum_{};
 };
 
