@@ -1,15 +1,15 @@
 // Triangles by cutting ears, then joined over their diagonals while what results is convex.
 //
 // S. Hertel and K. Mehlhorn, "Fast triangulation of simple polygons", 1983 (their second step: at most four times the
-// least number of parts). Every decision is the sign of an exact determinant (core/predicates.h) and every corner is a
-// given point, so parts lie inside the outline without any margin.
+// least number of parts). Every decision is the sign of an exact determinant (methods/turn_sign.h) and every corner is
+// a given point, so parts lie inside the outline without any margin.
 #include "gridcull/methods/convex_partition.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
-#include "gridcull/core/predicates.h"
+#include "gridcull/methods/turn_sign.h"
 
 namespace gridcull {
 namespace {
@@ -26,8 +26,8 @@ bool between(const Vec2& a, const Vec2& b, const Vec2& p) {
 }
 
 bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const int abc = orientation(a, b, c), abd = orientation(a, b, d);
-  const int cda = orientation(c, d, a), cdb = orientation(c, d, b);
+  const int abc = turn_sign(a, b, c), abd = turn_sign(a, b, d);
+  const int cda = turn_sign(c, d, a), cdb = turn_sign(c, d, b);
   if (abc * abd < 0 && cda * cdb < 0) return true;
   return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) || (cda == 0 && between(c, d, a)) ||
          (cdb == 0 && between(c, d, b));
@@ -39,7 +39,7 @@ bool is_simple(const Outline& p) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
     if (a == b) return false;
-    if (orientation(a, b, c) == 0 && (between(a, b, c) || between(b, c, a))) return false;  // turns back
+    if (turn_sign(a, b, c) == 0 && (between(a, b, c) || between(b, c, a))) return false;  // turns back
     for (std::size_t j = i + 2; j < n; ++j) {
       if ((j + 1) % n != i && segments_meet(a, b, p[j], p[(j + 1) % n])) return false;
     }
@@ -52,12 +52,12 @@ bool runs_left(const Outline& p) {
   const auto least = std::min_element(
       p.begin(), p.end(), [](const Vec2& a, const Vec2& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); });
   const std::size_t n = p.size(), at = static_cast<std::size_t>(least - p.begin());
-  return orientation(p[(at + n - 1) % n], *least, p[(at + 1) % n]) > 0;
+  return turn_sign(p[(at + n - 1) % n], *least, p[(at + 1) % n]) > 0;
 }
 
 int turn(const Outline& p, const Ring& ring, std::size_t i) {
   const std::size_t n = ring.size();
-  return orientation(p[ring[(i + n - 1) % n]], p[ring[i]], p[ring[(i + 1) % n]]);
+  return turn_sign(p[ring[(i + n - 1) % n]], p[ring[i]], p[ring[(i + 1) % n]]);
 }
 
 /// The corner can be cut off: it turns left and no other point of the ring lies in its closed triangle.
@@ -68,7 +68,7 @@ bool is_ear(const Outline& p, const Ring& ring, std::size_t i) {
   for (std::size_t j = 0; j < n; ++j) {
     if (j == before || j == i || j == after) continue;
     const Vec2& q = p[ring[j]];
-    if (orientation(a, b, q) >= 0 && orientation(b, c, q) >= 0 && orientation(c, a, q) >= 0) return false;
+    if (turn_sign(a, b, q) >= 0 && turn_sign(b, c, q) >= 0 && turn_sign(c, a, q) >= 0) return false;
   }
   return true;
 }

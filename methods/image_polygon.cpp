@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gridcull/core/predicates.h"
+#include "gridcull/methods/turn_sign.h"
 
 namespace gridcull {
 namespace {
@@ -18,7 +18,7 @@ void hull_of(std::vector<Vec2>& points, std::vector<Vec2>& hull) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
   hull.clear();
   const auto add = [&hull](const Vec2& p, std::size_t least) {
-    while (hull.size() > least && orientation(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+    while (hull.size() > least && turn_sign(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
     hull.push_back(p);
   };
   for (const Vec2& p : points) add(p, 1);

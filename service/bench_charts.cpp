@@ -126,7 +126,8 @@ void add_accuracy(const BenchSceneResult& result, std::vector<Chart>& out) {
   Curves curves;
   for (const BenchRow& row : result.rows) {
     if (!row.refused.empty() || std::isnan(row.over_estimation()) || row.contender.options.threads != 1) continue;
-    curves[with_misses(result, row)].push_back({median_us(row), row.over_estimation(), row.contender.setting, row.verdict.misses > 0});
+    curves[with_misses(result, row)].push_back(
+        {median_us(row), row.over_estimation(), row.contender.setting, row.verdict.misses > 0});
   }
   if (curves.empty()) return;
   // Along a curve the settings go by their time.

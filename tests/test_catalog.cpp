@@ -44,7 +44,7 @@ const std::map<std::string, std::uint64_t> golden{
     {"voxel/city/hollow", 0x2D45EB49C1F4BFD7ull},
     {"frustum/city/off", 0x125801922B512654ull},
     {"extended-projections/spheres/off", 0xF6ACD22CA989B400ull},
-    {"extended-projections/city/off", 0xF2A8AF87E04DE64Cull},
+    {"extended-projections/city/off", 0x64CC4282EEC8CD08ull},
     {"silhouette/discs/off", 0x19D24441F30A11F3ull},
     {"silhouette/discs/solid", 0x19D24441F30A11F3ull},
     {"silhouette/discs/hollow", 0x19D24441F30A11F3ull},
