@@ -1,9 +1,9 @@
 // Figure 4 of Hudson et al. 1997: the share of what view-frustum culling lets through that shadow frusta cull, against
 // the number of occluders; for each way to rank occluders and without unions of two.
 //
-//   gridcull_bench_shadow_frusta [FRAMES]        a table for the city and for spheres
+//   gridcull_bench_shadow_frusta [FRAMES [RUNS]]        tables for the city and for spheres
 //
-// Shares and tests do not depend on the machine; times (microseconds a query, least of three runs' means) do.
+// Shares and tests do not depend on the machine; times (microseconds a query, the least of RUNS runs' means) do.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -51,8 +51,7 @@ Result run(Culler& culler, const std::string& scene, const GenerateOptions& opti
   return out;
 }
 
-void table(const std::string& scene, const GenerateOptions& options) {
-  constexpr int runs = 3;
+void table(const std::string& scene, const GenerateOptions& options, int runs) {
   const Result all = run(*make_frustum_culler(3), scene, options);
   std::printf("\n%s: %.1f objects a frame pass view-frustum culling\n", scene.c_str(), all.reported);
   std::printf("%-28s %9s %9s %12s %9s %9s\n", "ranked by", "occluders", "culled", "plane tests", "boxes", "us");
@@ -82,10 +81,11 @@ void table(const std::string& scene, const GenerateOptions& options) {
 
 int main(int argc, char** argv) {
   const auto frames = static_cast<std::uint32_t>(argc > 1 ? std::max(2, std::atoi(argv[1])) : 100);
+  const int runs = argc > 2 ? std::max(1, std::atoi(argv[2])) : 3;
   GenerateOptions city, spheres;
   city.blocks = 20, city.count = 1000, city.frames = frames;
   spheres.count = 5000, spheres.frames = frames;
-  table("city", city);
-  table("spheres", spheres);
+  table("city", city, runs);
+  table("spheres", spheres, runs);
   return 0;
 }

@@ -9,6 +9,7 @@
 #include "gridcull/methods/convex_partition.h"
 #include "gridcull/methods/occluder_choice.h"
 #include "gridcull/methods/occluder_regions.h"
+#include "gridcull/methods/turn_sign.h"
 #include "random_solids.h"
 
 using namespace gridcull;
@@ -47,6 +48,26 @@ Object standing(ObjectId id, Shape shape, const Vec3& at) {
 }
 
 }  // namespace
+
+TEST_CASE("turn signs: those of the exact reference, near and on the line too") {
+  std::mt19937_64 random(6);
+  int zero = 0;
+  for (int k = 0; k < 200000; ++k) {
+    CAPTURE(k);
+    const double size = k % 3 == 0 ? 1.0 : k % 3 == 1 ? 1e7 : 1e-9;
+    const Vec2 a = size * Vec2(unit(random), unit(random)), b = size * Vec2(unit(random), unit(random));
+    Vec2 c = a + 3.0 * unit(random) * (b - a);
+    if (k % 4 == 1) c = a + 2.0 * (b - a);
+    if (k % 4 == 2) c = {std::nextafter(c.x, 1e9), c.y};
+    if (k % 4 == 3) c = size * Vec2(unit(random), unit(random));
+    const int expected = orientation(a, b, c);
+    REQUIRE(turn_sign(a, b, c) == expected);
+    REQUIRE(turn_sign(b, a, c) == -expected);
+    REQUIRE(turn_sign(b, c, a) == expected);
+    zero += expected == 0 ? 1 : 0;
+  }
+  CHECK(zero > 100);
+}
 
 TEST_CASE("convex partition: parts are convex, inside, and together the outline") {
   std::mt19937_64 random(3);
