@@ -29,6 +29,7 @@ void BenchReferee::prepare(std::uint64_t frame, const World& world, std::span<co
   if (!judges(frame) || prepared_.contains(frame)) return;
   Prepared p;
   const std::size_t count = std::min(views.size(), most_views);
+  p.all = count == views.size();
   for (std::size_t i = 0; i < count; ++i) {
     p.chosen.push_back(i * views.size() / count);
     p.views.push_back(views[p.chosen.back()]);
@@ -42,6 +43,16 @@ void BenchReferee::prepare(std::uint64_t frame, const World& world, std::span<co
   });
   stop_if_interrupted();
   prepared_.emplace(frame, std::move(p));
+}
+
+std::vector<std::pair<std::uint64_t, double>> BenchReferee::exact() const {
+  std::vector<std::pair<std::uint64_t, double>> out;
+  for (const auto& [frame, p] : prepared_) {
+    std::size_t visible = 0;
+    for (const ExactAnswer& answer : p.exact) visible += answer.visible.size();
+    if (p.all) out.emplace_back(frame, static_cast<double>(visible));
+  }
+  return out;
 }
 
 void BenchReferee::judge(std::uint64_t frame, const Answers& answers, BenchVerdict& verdict) const {

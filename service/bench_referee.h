@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "gridcull/core/exact.h"
@@ -29,10 +30,13 @@ class BenchReferee {
   void prepare(std::uint64_t frame, const World& world, std::span<const View> views);
   /// Adds a contender's answers to its verdict. Nothing where the frame was not prepared.
   void judge(std::uint64_t frame, const Answers& answers, BenchVerdict& verdict) const;
+  /// Of each frame that was prepared with all its views: how many objects they see together.
+  std::vector<std::pair<std::uint64_t, double>> exact() const;
 
  private:
   struct Prepared {
     std::vector<std::size_t> chosen;  ///< places in the views
+    bool all = false;                 ///< all of them
     std::vector<View> views;
     std::vector<ExactAnswer> exact;
     std::unique_ptr<ExactRays> rays;  ///< 3D

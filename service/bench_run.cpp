@@ -111,7 +111,9 @@ class Runner {
     ++row_->frames;
     row_->queries += answers_.views.size();
     row_->positions_read_mean += static_cast<double>(answers_.stats.positions_read);
+    row_->reported.push_back(0.0);
     for (const Answer& answer : answers_.views) {
+      row_->reported.back() += static_cast<double>(answer.visible.size());
       hash_.add(answer);
       row_->pvs_mean += static_cast<double>(answer.visible.size());
       row_->cells_visited += static_cast<double>(answer.work.cells_visited);
@@ -205,6 +207,7 @@ BenchSceneResult run_bench_scene(const BenchScene& scene, std::span<const Conten
     }
     for (Runner& runner : runners) runner.end_repeat();
   }
+  result.exact = referee.exact();
   std::uint64_t queries = 0, exact = 0;
   for (BenchRow& row : result.rows) {
     finish(row);

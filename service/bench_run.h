@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gridcull/service/bench_contender.h"
@@ -37,7 +38,8 @@ struct BenchRow {
   std::uint64_t memory_bytes = 0;  ///< growth while it was made and given its first frame
   double pvs_mean = 0.0, positions_read_mean = 0.0;
   double cells_visited = 0.0, object_tests = 0.0, occluders = 0.0, rasters = 0.0;
-  std::uint64_t hash = 0;  ///< core/hash.h over all answers of the first repeat
+  std::vector<double> reported{};  ///< objects, over all viewers, frame by frame
+  std::uint64_t hash = 0;          ///< core/hash.h over all answers of the first repeat
 
   double over_estimation() const;  ///< NaN where nothing was judged
 };
@@ -47,6 +49,8 @@ struct BenchSceneResult {
   int dimension = 2;
   std::uint64_t objects = 0, movers = 0, viewers = 0;  ///< in frame 0
   double exact_mean = 0.0;                             ///< visible objects a judged query; NaN where nothing was judged
+  /// Frames that were judged with all their viewers, and how many objects they see together.
+  std::vector<std::pair<std::uint64_t, double>> exact{};
   std::vector<BenchRow> rows{};
 };
 

@@ -7,6 +7,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/service/bench_hidden.h"
+#include "gridcull/service/bench_still.h"
 #include "gridcull/service/interrupt.h"
 #include "gridcull/service/survey.h"
 #include "gridcull/service/text.h"
@@ -60,8 +61,10 @@ void set_parameter(const std::string& text, const std::string& key, const std::s
     name.hidden = number<std::uint32_t>(text, value, "a number of hidden movers");
     name.boxed = true;
     if (name.hidden > 5'000'000) refuse(text, "expected at most 5000000 hidden movers");
+  } else if (key == "moving" && name.kind == "spheres") {
+    name.moving = number<std::uint32_t>(text, value, "a number of moving spheres");
   } else {
-    refuse(text, "expected viewers=, range=, cell=, seed= or (spheres) hidden=, found \"" + key + "=\"");
+    refuse(text, "expected viewers=, range=, cell=, seed= or (spheres) hidden= and moving=, found \"" + key + "=\"");
   }
 }
 
@@ -124,6 +127,7 @@ std::string made_label(const BenchSceneName& name, bool counts, bool viewers) {
   if (o.range) label += ":range=" + number_text(*o.range);
   if (o.cell) label += ":cell=" + number_text(*o.cell);
   if (o.seed != 1) label += ":seed=" + std::to_string(o.seed);
+  if (name.moving) label += ":moving=" + std::to_string(*name.moving);
   if (name.boxed) label += counts ? ":hidden=" + std::to_string(name.hidden) : " about a box";
   return label;
 }
@@ -146,9 +150,11 @@ std::unique_ptr<FrameSource> BenchScene::frames() const {
     return std::make_unique<FrameReader>(name.frames_path, scene.dimension, &stop_if_interrupted);
   }
   auto made = make_generator(name.kind, name.options);
-  if (!name.boxed) return made;
   const auto first = static_cast<ObjectId>(made->scene().objects.size() + 1);
-  return std::make_unique<HiddenMovers>(std::move(made), name.hidden, first);
+  std::unique_ptr<FrameSource> source = std::move(made);
+  if (name.moving) source = std::make_unique<FewMovers>(std::move(source), *name.moving);
+  if (name.boxed) source = std::make_unique<HiddenMovers>(std::move(source), name.hidden, first);
+  return source;
 }
 
 std::string BenchScene::family_of_objects() const { return name.kind.empty() ? label : made_label(name, false, true); }
@@ -164,6 +170,7 @@ BenchScene open_bench_scene(const std::string& text) {
     if (!out.scene.bounds || !out.scene.cell) survey = survey_world(out.scene, out.name.frames_path);
   } else {
     out.scene = make_generator(out.name.kind, out.name.options)->scene();
+    if (out.name.moving) keep_still(out.scene, *out.name.moving);
     if (out.name.boxed) add_hidden_movers(out.scene, out.name.hidden);
   }
   if (survey) {

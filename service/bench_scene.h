@@ -1,12 +1,13 @@
 // The scenes of a benchmark: made ones by name with parameters, and files.
 //
 //   spheres:5000  discs:300  town:400  maze:20  city:50:5000 (blocks a side, cars)
-//   ... and any of  :viewers=V  :range=METRES  :cell=METRES  :seed=S  :hidden=N  behind them
+//   ... and any of  :viewers=V  :range=METRES  :cell=METRES  :seed=S  behind them, spheres also  :hidden=N  :moving=M
 //   FOLDER or FOLDER/scene.json (with its frames.jsonl where there is one), or SCENE@FRAMES
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "gridcull/grid/choose_lattice.h"
@@ -18,12 +19,13 @@ namespace gridcull {
 
 /// What a name says.
 struct BenchSceneName {
-  std::string kind{};         ///< "spheres" ...; "" for files
-  GenerateOptions options{};  ///< of a made scene
-  std::uint32_t hidden = 0;   ///< spheres: so many small movers inside a solid box in the middle
-  bool boxed = false;         ///< `hidden` was named: the box is there, be it empty
-  std::string scene_path{};   ///< of files
-  std::string frames_path{};  ///< "": one frame
+  std::string kind{};                     ///< "spheres" ...; "" for files
+  GenerateOptions options{};              ///< of a made scene
+  std::uint32_t hidden = 0;               ///< spheres: so many small movers inside a solid box in the middle
+  bool boxed = false;                     ///< `hidden` was named: the box is there, be it empty
+  std::optional<std::uint32_t> moving{};  ///< spheres: only so many move, the others are static
+  std::string scene_path{};               ///< of files
+  std::string frames_path{};              ///< "": one frame
 };
 
 /// Throws Error(usage) for an unknown kind or parameter, Error(io) where a path leads nowhere.

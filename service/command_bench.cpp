@@ -11,6 +11,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/service/bench_charts.h"
+#include "gridcull/service/bench_figure.h"
 #include "gridcull/service/bench_output.h"
 #include "gridcull/service/bench_report.h"
 #include "gridcull/service/bench_run.h"
@@ -45,7 +46,19 @@ struct BenchOptions {
   std::int64_t frames = 40, judged = 3;
   std::string out{};
   bool stability = false;
+  std::string figure{};
 };
+
+/// A figure says what runs, how long and how much is judged; repeats and the like stay the user's.
+void take_figure(BenchOptions& o) {
+  if (o.figure.empty()) return;
+  const FigurePlan plan = figure_plan(o.figure);
+  o.scenes = plan.scenes;
+  o.choice.methods = plan.methods;
+  o.choice.cells = plan.cells;
+  o.frames = static_cast<std::int64_t>(plan.frames);
+  o.judged = static_cast<std::int64_t>(plan.judged);
+}
 
 void check_choice(BenchOptions& options) {
   for (const std::string& method : options.choice.methods) (void)find_method(method, "--methods");
@@ -139,6 +152,7 @@ std::vector<BenchSceneResult> run_all(const BenchOptions& options, const std::ve
 }
 
 int bench(BenchOptions options) {
+  take_figure(options);
   check_choice(options);
   check_settings(options);
   if (options.stability) {
@@ -152,7 +166,10 @@ int bench(BenchOptions options) {
   const std::vector<BenchSceneResult> results = run_all(options, matches);
   if (!output) return 0;
   const std::string gnuplot = find_gnuplot();
-  const std::vector<Chart> charts = bench_charts(results);
+  std::vector<Chart> charts = bench_charts(results);
+  if (!options.figure.empty()) {
+    for (Chart& chart : figure_charts(options.figure, results)) charts.push_back(std::move(chart));
+  }
   output->commit(bench_head(options.settings) + bench_csv(results), charts, gnuplot);
   std::printf("\n%s/bench.csv%s\n", options.out.c_str(),
               gnuplot.empty()
@@ -167,7 +184,8 @@ void add_options(CLI::App& command, BenchOptions& o) {
           .add_option(
               "--scenes", o.scenes,
               "spheres:COUNT, discs:COUNT, town:BUILDINGS, maze:SIDE or city:BLOCKS:CARS, each with :viewers=V, "
-              ":range=M, :cell=M, :seed=S (spheres: :hidden=N) behind; a folder, a scene file, or SCENE@FRAMES")
+              ":range=M, :cell=M, :seed=S (spheres: :hidden=N, :moving=M) behind; a folder, a scene file, or "
+              "SCENE@FRAMES")
           ->delimiter(',')
           ->type_name("S,S...");
   command.add_option("--methods", o.choice.methods, "as listed by gridcull methods (default: all that take the scene)")
@@ -210,6 +228,10 @@ void add_options(CLI::App& command, BenchOptions& o) {
       "instead of scenes: small worlds that go to a limit (thin walls, far origins, fast movers ...), every "
       "answer judged; a table a method");
   stability->excludes(scenes);
+  CLI::Option* const figure =
+      command.add_option("--figure", o.figure, "a figure of the papers, made again: batagelo-5")->type_name("NAME");
+  figure->excludes(scenes);
+  figure->excludes(stability);
   command.add_option("--baked", o.choice.baked, "files that gridcull bake wrote, each for its own method and scene")
       ->delimiter(',')
       ->type_name("FILE,...");
