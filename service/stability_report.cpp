@@ -21,11 +21,26 @@ std::vector<const LimitResult*> ran(const LimitRow& row) {
 
 std::string at(const LimitResult& result) { return number_text(result.value, 4); }
 
-/// "12 of 340 at 0.01, 3 of 300 at 0", or "none".
+double missed_share(const LimitResult& result) {
+  return result.exact == 0 ? 0.0 : static_cast<double>(result.misses) / static_cast<double>(result.exact);
+}
+
+/// "12 of 340 at 0.01; 3 of 300 at 0", "3 .. 58 % (at 100)" where it misses at many values, or "none".
 std::string misses_text(const LimitRow& row) {
-  std::string text;
+  std::vector<const LimitResult*> missing;
   for (const LimitResult* result : ran(row)) {
-    if (result->misses == 0) continue;
+    if (result->misses > 0) missing.push_back(result);
+  }
+  if (missing.size() > 3) {
+    const auto [least, most] = std::minmax_element(missing.begin(), missing.end(), [](const auto* a, const auto* b) {
+      return missed_share(*a) < missed_share(*b);
+    });
+    const std::string low = number_text(100.0 * missed_share(**least), 2),
+                      high = number_text(100.0 * missed_share(**most), 2);
+    return (low == high ? low : low + " .. " + high) + " % of the visible (worst at " + at(**most) + ")";
+  }
+  std::string text;
+  for (const LimitResult* result : missing) {
     text += (text.empty() ? "" : "; ") + std::to_string(result->misses) + " of " + std::to_string(result->exact) +
             " at " + at(*result);
   }

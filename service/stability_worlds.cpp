@@ -85,7 +85,8 @@ View LimitBuilder::viewer(const Vec2& position, ViewerId id) const {
 LimitWorld LimitBuilder::finish(double cell) {
   for (const Object& object : world.objects) add_extent(object, world.bounds);
   const Vec3 around(10.0, 10.0, world.dimension == 3 ? 10.0 : 0.0);
-  world.bounds = {world.bounds.min - around, world.bounds.max + around};
+  const Vec3 aside = (cell / 1024.0) * Vec3(1.0, 1.0, world.dimension == 3 ? 1.0 : 0.0);
+  world.bounds = {world.bounds.min - around - aside, world.bounds.max + around};
   world.cell = cell;
   return std::move(world);
 }

@@ -25,7 +25,8 @@ class LimitBuilder {
   /// The pose of something on the ground plan whose origin is `z` high.
   Pose pose(const Vec2& position, double z = 0.0) const;
 
-  /// The bounds of all objects, and 10 m around them.
+  /// The bounds of all objects, and 10 m around them, moved by a 1024th of a cell: faces at round coordinates would
+  /// else lie on cell boundaries (grid/choose_lattice.h).
   LimitWorld finish(double cell);
 
   LimitWorld world{};
