@@ -180,8 +180,8 @@ TEST_CASE("exact overlap: the specialised test says what the naive one says, for
         specialised.add(fast);
         only_exact += found == Overlap::outside && fast.dots > 30 ? 1 : 0;
       }
-      const std::string title = std::string(far_plane ? "with" : "without") + " far plane, boxes " +
-                                (turned ? "turned" : "along the axes");
+      const std::string title =
+          std::string(far_plane ? "with" : "without") + " far plane, boxes " + (turned ? "turned" : "along the axes");
       MESSAGE(title << "\n  naive: " << naive.text() << "\n  specialised: " << specialised.text() << "\n  outside "
                     << outcomes[0] << ", by edges only " << only_exact << ", partial " << outcomes[1] << ", inside "
                     << outcomes[2]);
