@@ -37,7 +37,8 @@ std::string misses_text(const LimitRow& row) {
     });
     const std::string low = number_text(100.0 * missed_share(**least), 2),
                       high = number_text(100.0 * missed_share(**most), 2);
-    return (low == high ? low : low + " .. " + high) + " % of the visible (worst at " + at(**most) + ")";
+    if (low == high) return low + " % of the visible";
+    return low + " .. " + high + " % of the visible (worst at " + at(**most) + ")";
   }
   std::string text;
   for (const LimitResult* result : missing) {
