@@ -42,10 +42,11 @@ enum class Overlap : std::uint8_t { outside, partial, inside };
 inline constexpr double half_ulp = 0x1p-53;
 
 /// How far a computed world point of an object may be from the true one, and a difference to the viewpoint from the
-/// true difference: 16 roundings of the sizes that take part.
+/// true difference. 2^-48 of the sizes that take part would hold 16 roundings; it is 2^-39, so that places within 1e-12
+/// of the coordinates' size count as one, as core/exact.h has it: what touches an occluder's front is not hidden by it.
 inline double blur_of(const Vec3& position, double reach, const Vec3& eye) {
   const auto size = [](const Vec3& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); };
-  return 0x1p-48 * (size(position) + reach + size(eye));
+  return 0x1p-39 * (size(position) + reach + size(eye));
 }
 
 /// A box in sight coordinates; holds what it stands for with all roundings.

@@ -66,9 +66,9 @@ const std::map<std::string, std::uint64_t> golden{
     {"voxel/maze/solid", 0x9735EAC5306B57FCull},
     {"voxel/maze/hollow", 0x9735EAC5306B57FCull},
     {"frustum/maze/off", 0x9011FDD08A371AB5ull},
-    {"shadow-frusta/spheres/off", 0xD01C95DFF7C00244ull},
+    {"shadow-frusta/spheres/off", 0xD072B171AC04A3BBull},
     {"shadow-frusta/city/off", 0x16ACC4217B474C66ull},
-    {"shadow-frusta/discs/off", 0x21C6885DE70F2938ull},
+    {"shadow-frusta/discs/off", 0x7DCC60CE7537D596ull},
     {"shadow-frusta/town/off", 0x84839629BEE214C7ull},
     {"shadow-frusta/maze/off", 0xDC11ACE15534EB7Eull},
 };
