@@ -252,6 +252,9 @@ Occluder make_occluder(const Object& object) {
   } else if (const auto* prism = std::get_if<Prism>(&object.shape)) {
     const OutlineParts parts = convex_parts_of(prism->vertices);
     for (const Outline& part : parts.parts) out.pieces.push_back(prism_piece(part, prism->height, object.pose, r));
+    if (parts.parts.size() + parts.left_out.size() > 1) {
+      out.concave = {merged_outline(prism->vertices), prism->height, object.pose.position, r};
+    }
     for (const Outline& part : parts.left_out) out.covers.push_back(prism_piece(part, prism->height, object.pose, r));
   } else if (const auto* convex = std::get_if<Convex>(&object.shape)) {
     out.pieces.emplace_back().polytope.points = world;

@@ -6,6 +6,7 @@
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/object.h"
 #include "gridcull/methods/extended_polytope.h"
+#include "gridcull/methods/extended_slice.h"
 
 namespace gridcull::extended {
 
@@ -23,6 +24,7 @@ struct Occluder {
   Bounds box{};
   bool upright = false;  ///< a box or prism whose sides are vertical: its lowest points are its base
   std::vector<Piece> pieces{};
+  ConcavePrism concave{};  ///< the whole of a prism that is more than one piece
   // Its pieces and these hold all of its interior, and maybe more: where a viewpoint may be inside it.
   double ball = 0.0;  ///< radius about the box's centre; 0: none
   std::vector<Piece> covers{};

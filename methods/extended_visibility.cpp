@@ -148,6 +148,9 @@ bool CellLooker::draw(Outlook& outlook, const ViewCell& cell, std::uint32_t cand
     turned_.edges = p.edges;
     any = projector_.add(outlook.plane, turned_, occluder.blur, cuts, outlook.map) || any;
   }
+  if (!occluder.concave.outline.empty()) {
+    any = cover_slice(cell, outlook.facing, outlook.plane, occluder.concave, occluder.blur, outlook.map) || any;
+  }
   ++out.drawn;
   if (any) {
     out.used.push_back(occluder.id);
