@@ -59,6 +59,7 @@ class TbvMatrix {
   void renew(Slot slot, const Ball& ball);
   /// Hints that the slot will be renewed soon.
   void prefetch(Slot slot) const {
+    if (slot >= links_.size()) return;  // never had a volume
     __builtin_prefetch(&links_[slot]);
     __builtin_prefetch(&balls_[slot]);
   }

@@ -153,7 +153,8 @@ const MethodEntry& frustum_only() {
 }
 
 bool has_static_occluders(std::string_view scene) {
-  for (const SceneObject& object : make_generator(scene, small(scene))->scene().objects) {
+  const auto generator = make_generator(scene, small(scene));
+  for (const SceneObject& object : generator->scene().objects) {
     if (object.object.is_static && object.object.occluder) return true;
   }
   return false;
