@@ -44,7 +44,7 @@ std::unique_ptr<Culler> make_pairwise(const MethodOptions& o) {
 }
 
 std::unique_ptr<Culler> make_shadows(const MethodOptions& o) {
-  return make_shadow_frusta({.dimension = o.dimension, .occluders = o.occluders});
+  return make_shadow_frusta({.dimension = o.dimension, .occluders = o.occluders, .bound = o.bound});
 }
 
 std::unique_ptr<Culler> make_depth(const MethodOptions& o) {
@@ -96,7 +96,7 @@ std::span<const MethodEntry> method_catalog() {
                   "--resolution R (3D), --bounds KIND (3D), --cell C, --tbv off|solid, --threads N, --max-memory BYTES",
                   &make_silhouette},
       MethodEntry{frustum_culler_info(), "--bounds KIND", &make_frustum},
-      MethodEntry{shadow_frusta_info(), "--occluders N (default 8)", &make_shadows},
+      MethodEntry{shadow_frusta_info(), "--occluders N (default 8), --bounds KIND", &make_shadows},
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
       MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72), --bounds KIND", &make_depth},
       MethodEntry{five_d_tree_info(), "--baked FILE, --view-box METRES", &make_five_d, five_d_baking()},

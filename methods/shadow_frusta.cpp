@@ -45,7 +45,7 @@ class ShadowFrusta final : public Culler {
  public:
   explicit ShadowFrusta(const ShadowFrustaOptions& options)
       : options_(options),
-        world_(options.dimension),
+        world_(options.dimension, options.bound),
         choice_(static_cast<std::size_t>(options.occluders), options.weights) {}
 
   const MethodInfo& info() const override { return shadow_frusta_info(); }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "gridcull/core/bound_kind.h"
 #include "gridcull/core/culler.h"
 #include "gridcull/methods/occluder_choice.h"
 
@@ -14,6 +16,7 @@ struct ShadowFrustaOptions {
   bool unions = true;  ///< whether two occluders may hide an object together
   /// Whether boxes beside a frustum are recognised exactly (section 5.3) instead of plane by plane.
   bool exact = false;
+  std::optional<BoundKind> bound{};  ///< what objects are tested with; none: their own outlines
   OccluderWeights weights{};
 };
 

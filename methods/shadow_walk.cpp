@@ -92,38 +92,56 @@ void ShadowWalk::visit_object(std::uint32_t place, std::uint64_t active) {
   }
   const SightBox box(task_.world->boxes()[place], eye_);
   if (!may_be_in_view(box)) return;
-  if (active != 0) {
-    const bool ball = flat.local.kind == LocalShape::Kind::ball;
-    if (ball && hides(SightBall(flat.object.pose.position, flat.local.radius, eye_), active, 1)) return;
-    if (!ball && hides(box, active, 1)) return;
-    if (active != 0 && hides_outline(flat, box, active)) return;
-  }
+  if (active != 0 && is_hidden(outline_of(place), box, active)) return;
   if (task_.test->may_touch(flat)) answer_->visible.push_back(flat.object.id);
 }
 
-/// The general test: the object's own outline against each frustum, then against two together.
-bool ShadowWalk::hides_outline(const FlatObject& flat, const SightBox& box, std::uint64_t active) {
-  std::uint64_t& tests = answer_->work.rasters;
-  const bool ball = flat.local.kind == LocalShape::Kind::ball;
-  if (ball && (!task_.unions || std::has_single_bit(active))) return false;
-  const double reach = reach_of(flat.object.shape);
-  const double blur = blur_of(flat.object.pose.position, reach, eye_);
-  const SightBall round(flat.object.pose.position, flat.local.radius, eye_);
-  if (ball) {
-    if (!polygon_.build(round, flat_)) return false;
+ShadowWalk::Outline ShadowWalk::outline_of(std::uint32_t place) const {
+  const FlatObject& flat = task_.world->object(place);
+  const PlacedBound* bound = task_.world->bound(place);
+  const Pose& pose = flat.object.pose;
+  Outline out{.object = &flat, .bound = bound, .blur = blur_of(pose.position, reach_of(flat.object.shape), eye_)};
+  if (bound != nullptr && bound->round) {
+    out.ball.emplace(bound->ball.centre, bound->ball.radius, eye_);
+  } else if (bound == nullptr && flat.local.kind == LocalShape::Kind::ball) {
+    out.ball.emplace(pose.position, flat.local.radius, eye_);
+  }
+  return out;
+}
+
+bool ShadowWalk::is_hidden(const Outline& outline, const SightBox& box, std::uint64_t active) {
+  if (outline.ball ? hides(*outline.ball, active, 1) : hides(box, active, 1)) return true;
+  return active != 0 && hides_outline(outline, box, active);
+}
+
+/// Its corners in points_, as seen from the eye.
+void ShadowWalk::list_points(const Outline& outline) {
+  points_.clear();
+  const auto add = [this](const Vec3& p) {
+    points_.push_back(p - eye_);
+    if (flat_) points_.back().z = 0.0;
+  };
+  if (outline.bound != nullptr) {
+    for (const Vec3& p : outline.bound->boundary.vertices) add(p);
   } else {
-    points_.clear();
-    for_each_world_point(flat.object.shape, flat.object.pose, [this](const Vec3& p) {
-      points_.push_back(p - eye_);
-      if (flat_) points_.back().z = 0.0;
-    });
-    if (!polygon_.build(points_, box.centre, blur, flat_)) return false;
+    for_each_world_point(outline.object->object.shape, outline.object->object.pose, add);
+  }
+}
+
+/// The general test: the object's own outline, or its bound's, against each frustum, then against two together.
+bool ShadowWalk::hides_outline(const Outline& outline, const SightBox& box, std::uint64_t active) {
+  std::uint64_t& tests = answer_->work.rasters;
+  const bool ball = outline.ball.has_value();
+  if (ball && (!task_.unions || std::has_single_bit(active))) return false;
+  if (!ball) list_points(outline);
+  if (!(ball ? polygon_.build(*outline.ball, flat_) : polygon_.build(points_, box.centre, outline.blur, flat_))) {
+    return false;
   }
   beyond_.clear();
   for (std::uint64_t left = active; left != 0; left &= left - 1) {
     const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
     const ShadowFrustum& frustum = *task_.frusta[k];
-    if (!(ball ? frustum.beyond(round, tests) : frustum.beyond(points_, blur, tests))) continue;
+    if (!(ball ? frustum.beyond(*outline.ball, tests) : frustum.beyond(points_, outline.blur, tests))) continue;
     const Overlap place = ball ? Overlap::partial : overlap(polygon_, frustum, tests);
     if (place == Overlap::partial) beyond_.push_back(k);
     if (place != Overlap::inside) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,7 +47,17 @@ class ShadowWalk {
   bool hides(const Occludee& occludee, std::uint64_t& active, std::uint64_t objects);
   bool lies_beside(const ShadowFrustum& frustum, const SightBox& box);
   bool lies_beside(const ShadowFrustum&, const SightBall&) { return false; }
-  bool hides_outline(const FlatObject& flat, const SightBox& box, std::uint64_t active);
+  /// What an object is tested with.
+  struct Outline {
+    const FlatObject* object = nullptr;
+    const PlacedBound* bound = nullptr;  ///< null: the object's own corners
+    std::optional<SightBall> ball{};     ///< of what is round
+    double blur = 0.0;                   ///< metres by which corners may be off, as seen from the eye
+  };
+  Outline outline_of(std::uint32_t place) const;
+  bool is_hidden(const Outline& outline, const SightBox& box, std::uint64_t active);
+  void list_points(const Outline& outline);
+  bool hides_outline(const Outline& outline, const SightBox& box, std::uint64_t active);
   bool hides_together(std::span<const std::uint32_t> numbers);
 
   Task task_{};

@@ -6,24 +6,6 @@
 #include "gridcull/methods/shadow_frustum.h"
 
 namespace gridcull {
-namespace {
-
-Bounds box_of(const FlatObject& flat, int dimension) {
-  const Pose& pose = flat.object.pose;
-  Bounds box;
-  if (flat.local.kind == LocalShape::Kind::ball) {
-    box.add_ball(pose.position, flat.local.radius);
-  } else {
-    for_each_world_point(flat.object.shape, pose, [&box](const Vec3& p) { box.add(p); });
-  }
-  const Vec3 blur(blur_of(pose.position, reach_of(flat.object.shape), Vec3(0.0)));
-  box = {box.min - blur, box.max + blur};
-  if (dimension == 2) box.min.z = box.max.z = 0.0;
-  return box;
-}
-
-}  // namespace
-
 void ShadowWorld::add(const Object& object) {
   world_.add(object);
   if (!object.occluder) return;
@@ -72,12 +54,35 @@ void ShadowWorld::list_entries() {
   });
   static_count_ = static_cast<std::size_t>(std::find_if(entries_.begin(), entries_.end(), moves) - entries_.begin());
   boxes_.resize(objects.size());
+  if (!objects.empty() && objects[0].bound) bounds_.resize(objects.size());
+}
+
+Bounds ShadowWorld::box_of(std::uint32_t place) const {
+  const FlatObject& flat = object(place);
+  const Pose& pose = flat.object.pose;
+  const PlacedBound* placed = bound(place);
+  Bounds box;
+  if (placed != nullptr && placed->round) {
+    box.add_ball(placed->ball.centre, placed->ball.radius);
+  } else if (placed != nullptr) {
+    for (const Vec3& p : placed->boundary.vertices) box.add(p);
+  } else if (flat.local.kind == LocalShape::Kind::ball) {
+    box.add_ball(pose.position, flat.local.radius);
+  } else {
+    for_each_world_point(flat.object.shape, pose, [&box](const Vec3& p) { box.add(p); });
+  }
+  const Vec3 blur(blur_of(pose.position, reach_of(flat.object.shape), Vec3(0.0)));
+  box = {box.min - blur, box.max + blur};
+  if (dimension() == 2) box.min.z = box.max.z = 0.0;
+  return box;
 }
 
 void ShadowWorld::place_boxes(bool is_static) {
   const auto objects = world_.objects();
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].object.is_static == is_static) boxes_[i] = box_of(objects[i], dimension());
+  for (std::uint32_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].object.is_static != is_static) continue;
+    if (objects[i].bound) place(*objects[i].bound, objects[i].object.pose, bounds_[i]);
+    boxes_[i] = box_of(i);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -24,7 +25,8 @@ struct PartEntry {
 
 class ShadowWorld {
  public:
-  explicit ShadowWorld(int dimension) : world_(dimension) {}
+  /// `bound`: what objects are tested with; none: their own outlines.
+  explicit ShadowWorld(int dimension, std::optional<BoundKind> bound = {}) : world_(dimension, bound) {}
 
   // As Culler's.
   void add(const Object& object);
@@ -41,6 +43,8 @@ class ShadowWorld {
   const FlatObject& object(std::uint32_t place) const { return world_.objects()[place]; }
   /// By place: hold the objects, the roundings of their world points included.
   std::span<const Bounds> boxes() const { return boxes_; }
+  /// What the object is tested with, in the world; null where its own outline is.
+  const PlacedBound* bound(std::uint32_t place) const { return bounds_.empty() ? nullptr : &bounds_[place]; }
   const BoxTree& static_tree() const { return static_tree_; }
   const BoxTree& moving_tree() const { return moving_tree_; }
 
@@ -59,6 +63,7 @@ class ShadowWorld {
  private:
   void list_entries();
   void place_boxes(bool is_static);
+  Bounds box_of(std::uint32_t place) const;
   void build_tree(bool is_static, BoxTree& tree);
 
   FlatWorld world_;
@@ -67,6 +72,7 @@ class ShadowWorld {
   std::vector<PartEntry> entries_{};
   std::size_t static_count_ = 0;
   std::vector<Bounds> boxes_{};
+  std::vector<PlacedBound> bounds_{};  ///< by place, where the world was asked for them
   std::vector<BoxTree::Item> items_{};
   BoxTree static_tree_{}, moving_tree_{};
 };

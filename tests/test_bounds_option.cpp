@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,19 +30,56 @@ const MethodEntry& method(std::string_view name) {
   throw std::logic_error("no such method");
 }
 
+constexpr std::string_view silhouette = "silhouette", shadows = "shadow-frusta";
+
 /// A function of its own for each kind, as the catalog's entries want them.
-template <BoundKind kind>
-std::unique_ptr<Culler> make_silhouette(const MethodOptions& options) {
+template <const std::string_view& name, BoundKind kind>
+std::unique_ptr<Culler> make_with(const MethodOptions& options) {
   MethodOptions with = options;
   with.bound = kind;
-  return make_method("silhouette", with);
+  return make_method(name, with);
 }
 
 using Make = std::unique_ptr<Culler> (*)(const MethodOptions&);
+using Makers = std::array<Make, all_bound_kinds.size()>;
 
-template <std::size_t... i>
-std::array<Make, sizeof...(i)> makers(std::index_sequence<i...>) {
-  return {&make_silhouette<all_bound_kinds[i]>...};
+template <const std::string_view& name, std::size_t... i>
+Makers makers(std::index_sequence<i...>) {
+  return {&make_with<name, all_bound_kinds[i]>...};
+}
+template <const std::string_view& name>
+Makers makers() {
+  return makers<name>(std::make_index_sequence<all_bound_kinds.size()>());
+}
+
+struct Contender {
+  std::string_view name;
+  Makers make;
+};
+
+/// Random worlds, every contender with every kind of bound.
+void check_random_worlds(int dimension, std::uint64_t worlds, std::span<const Contender> contenders) {
+  const int rays = dimension == 3 && ExactRays::available() ? 48 : 0;
+  const char* times = std::getenv("GRIDCULL_PROPERTY_SCENES");
+  worlds *= std::max(1ul, times != nullptr ? std::strtoul(times, nullptr, 10) : 1ul);
+  for (const Contender& contender : contenders) {
+    Tally tally;
+    for (std::uint64_t seed = 9000; seed < 9000 + worlds; ++seed) {
+      const WorldScript script = random_world(dimension, seed);
+      const Truth truth(script, rays);
+      for (std::size_t i = 0; i < contender.make.size(); ++i) {
+        MethodEntry entry = method(contender.name);
+        entry.make = contender.make[i];
+        const auto fault = check_world(script, entry, truth, tally);
+        CAPTURE(seed);
+        CAPTURE(contender.name);
+        CAPTURE(name_of(all_bound_kinds[i]));
+        if (fault) FAIL_CHECK(fault->text);
+      }
+    }
+    CHECK(tally.in_view > 2 * tally.views);
+    CHECK(tally.answered < tally.in_view);
+  }
 }
 
 /// The answers of a scene's frames, one after the other.
@@ -74,26 +113,27 @@ bool all_within(const std::vector<std::vector<ObjectId>>& inner, const std::vect
 
 }  // namespace
 
-TEST_CASE("silhouette in 3D misses nobody in random worlds, whatever objects are tested with") {
-  const int rays = ExactRays::available() ? 48 : 0;
-  const auto make = makers(std::make_index_sequence<all_bound_kinds.size()>());
-  const char* times = std::getenv("GRIDCULL_PROPERTY_SCENES");
-  const std::uint64_t worlds = 90 * std::max(1ul, times != nullptr ? std::strtoul(times, nullptr, 10) : 1ul);
-  Tally tally;
-  for (std::uint64_t seed = 9000; seed < 9000 + worlds; ++seed) {
-    const WorldScript script = random_world(3, seed);
-    const Truth truth(script, rays);
-    for (std::size_t i = 0; i < make.size(); ++i) {
-      MethodEntry entry = method("silhouette");
-      entry.make = make[i];
-      const auto fault = check_world(script, entry, truth, tally);
-      CAPTURE(seed);
-      CAPTURE(name_of(all_bound_kinds[i]));
-      if (fault) FAIL_CHECK(fault->text);
-    }
-  }
-  CHECK(tally.in_view > 2 * tally.views);
-  CHECK(tally.answered < tally.in_view);
+TEST_CASE("nobody is missed in random 3D worlds, whatever objects are tested with") {
+  check_random_worlds(3, 90, std::array{Contender{silhouette, makers<silhouette>()}});
+  check_random_worlds(3, 40, std::array{Contender{shadows, makers<shadows>()}});
+}
+
+TEST_CASE("nobody is missed in random 2D worlds, whatever objects are tested with") {
+  check_random_worlds(2, 200, std::array{Contender{shadows, makers<shadows>()}});
+}
+
+TEST_CASE("shadow frusta: tighter volumes report less, the object's own outline least") {
+  const GenerateOptions scene{.count = 60, .blocks = 6, .frames = 4};
+  const auto count = [&](std::optional<BoundKind> kind) {
+    MethodOptions options;
+    options.bound = kind;
+    options.occluders = 24;
+    return total(answers_of("city", options, scene, shadows));
+  };
+  const std::size_t own = count(std::nullopt), ball = count(BoundKind::sphere);
+  CHECK(own <= count(BoundKind::hull));
+  CHECK(count(BoundKind::box) < ball);
+  CHECK(own < ball);
 }
 
 TEST_CASE("the option changes what is reported: tighter volumes report less") {
