@@ -46,50 +46,87 @@ std::string baked_for(const MethodEntry& method, const BenchScene& scene, const 
   return {};
 }
 
+bool takes_edge_here(const MethodEntry& method, const BenchScene& scene) {
+  return takes_edge(method) && scene.scene.dimension == 3;
+}
+
+/// From a file, or from one that is to be made; nothing else is asked of a method that has one.
+void add_baked(const Contender& plain, const BenchScene& scene, const BenchChoice& choice,
+               std::vector<Contender>& out) {
+  if (plain.method->baking.bake == nullptr) return;
+  Contender one = plain;
+  one.setting_name = "sets";
+  one.setting = "baked";
+  one.options.baked = baked_for(*plain.method, scene, choice);
+  one.to_bake = one.options.baked.empty() && choice.bake;
+  if (one.to_bake || !one.options.baked.empty()) out.push_back(one);
+}
+
+void add_resolutions(const Contender& plain, const BenchScene& scene, const BenchChoice& choice,
+                     std::vector<Contender>& out) {
+  const bool edge = takes_edge_here(*plain.method, scene), picture = takes_picture(*plain.method);
+  Contender one = plain;
+  one.setting_name = "resolution";
+  std::vector<Resolution> all = choice.resolutions;
+  if (all.empty() && edge) all = {{}, {.edge = 64}, {.edge = 128}, {.edge = 256}, {.edge = 512}};
+  if (all.empty() && picture) all = {{.width = 42, .height = 24}, {}, {.width = 320, .height = 180}};
+  const std::size_t before = out.size();
+  for (const Resolution& resolution : all) {
+    if ((resolution.edge > 0 && !edge) || (resolution.width > 0 && !picture)) continue;
+    apply_resolution(resolution, *plain.method, one.options);
+    one.setting = resolution_text(resolution);
+    if (picture && resolution.width == 0) one.setting = "128x72";
+    one.is_default = picture ? one.setting == "128x72" : resolution.edge == 0;
+    out.push_back(one);
+  }
+  // Nothing asked for that this method takes: its default.
+  if (out.size() == before) one.setting = picture ? "128x72" : "auto", out.push_back(one);
+}
+
+void add_occluders(const Contender& plain, const BenchChoice& choice, std::vector<Contender>& out) {
+  Contender one = plain;
+  one.setting_name = "occluders";
+  for (const int count : choice.occluders.empty() ? std::vector{1, 2, 4, 8, 16, 32} : choice.occluders) {
+    one.options.occluders = count;
+    one.setting = std::to_string(count);
+    one.is_default = count == MethodOptions{}.occluders;
+    out.push_back(one);
+  }
+}
+
+void add_cells(const Contender& plain, const BenchScene& scene, const BenchChoice& choice,
+               std::vector<Contender>& out) {
+  Contender one = plain;
+  one.setting_name = "cell";
+  for (const double cell : cells_of(scene, choice)) {
+    one.options.cell = cell;
+    one.setting = number_text(cell) + " m";
+    one.is_default = cell == scene.default_cell;
+    out.push_back(one);
+  }
+}
+
 /// The settings of one method on one scene, threads apart.
 std::vector<Contender> settings_of(const MethodEntry& method, const BenchScene& scene, const BenchChoice& choice) {
-  Contender one;
-  one.method = &method;
-  one.options.dimension = scene.scene.dimension;
-  one.options.bounds = scene.choice.bounds;
-  one.options.cell = scene.default_cell;
-  one.options.max_memory = choice.max_memory;
-  one.options.baked = baked_for(method, scene, choice);
+  Contender plain;
+  plain.method = &method;
+  plain.options.dimension = scene.scene.dimension;
+  plain.options.bounds = scene.choice.bounds;
+  plain.options.cell = scene.default_cell;
+  plain.options.max_memory = choice.max_memory;
   std::vector<Contender> out;
-  const bool edge = takes_edge(method) && scene.scene.dimension == 3, picture = takes_picture(method);
-  if (edge || picture) {
-    one.setting_name = "resolution";
-    std::vector<Resolution> all = choice.resolutions;
-    if (all.empty() && edge) all = {{}, {.edge = 64}, {.edge = 128}, {.edge = 256}, {.edge = 512}};
-    if (all.empty() && picture) all = {{.width = 42, .height = 24}, {}, {.width = 320, .height = 180}};
-    for (const Resolution& resolution : all) {
-      if ((resolution.edge > 0 && !edge) || (resolution.width > 0 && !picture)) continue;
-      apply_resolution(resolution, method, one.options);
-      one.setting = resolution_text(resolution);
-      if (picture && resolution.width == 0) one.setting = "128x72";
-      one.is_default = picture ? one.setting == "128x72" : resolution.edge == 0;
-      out.push_back(one);
-    }
-    // Nothing asked for that this method takes: its default.
-    if (out.empty()) one.setting = picture ? "128x72" : "auto", out.push_back(one);
+  if (takes_edge_here(method, scene) || takes_picture(method)) {
+    add_baked(plain, scene, choice, out);
+    const bool baked = !out.empty();  // then that is the default
+    add_resolutions(plain, scene, choice, out);
+    if (baked) std::for_each(out.begin() + 1, out.end(), [](Contender& c) { c.is_default = false; });
   } else if (takes(method, "--occluders")) {
-    one.setting_name = "occluders";
-    for (const int count : choice.occluders.empty() ? std::vector{1, 2, 4, 8, 16, 32} : choice.occluders) {
-      one.options.occluders = count;
-      one.setting = std::to_string(count);
-      one.is_default = count == MethodOptions{}.occluders;
-      out.push_back(one);
-    }
+    add_occluders(plain, choice, out);
   } else if (takes(method, "--cell") && !takes_edge(method)) {
-    one.setting_name = "cell";
-    for (const double cell : cells_of(scene, choice)) {
-      one.options.cell = cell;
-      one.setting = number_text(cell) + " m";
-      one.is_default = cell == scene.default_cell;
-      out.push_back(one);
-    }
+    add_cells(plain, scene, choice, out);
   } else {
-    out.push_back(one);
+    add_baked(plain, scene, choice, out);
+    if (out.empty()) out.push_back(plain);
   }
   // A curve without its default: the first stands for it.
   if (std::none_of(out.begin(), out.end(), [](const Contender& c) { return c.is_default; })) out[0].is_default = true;
@@ -112,12 +149,13 @@ std::vector<Contender> choose_contenders(const BenchScene& scene, const BenchCho
   }
   std::vector<int> threads = choice.threads;
   if (threads.empty()) threads = scene.scene.viewers.size() >= many_viewers ? std::vector{1, 2} : std::vector{1};
+  const std::vector<int> alone{1};
   std::vector<Contender> out;
   for (const MethodEntry* method : methods) {
     if (scene.scene.dimension == 2 ? !method->info.takes_2d : !method->info.takes_3d) continue;
     const bool parallel = takes(*method, "--threads");
     for (const Contender& setting : settings_of(*method, scene, choice)) {
-      for (const int count : parallel ? threads : std::vector{1}) {
+      for (const int count : parallel ? threads : alone) {
         out.push_back(setting);
         out.back().options.threads = count;
       }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gridcull/methods/catalog.h"
+#include "gridcull/service/bench_bake.h"
 #include "gridcull/service/bench_scene.h"
 #include "gridcull/service/resolution.h"
 
@@ -19,14 +20,17 @@ struct BenchChoice {
   std::vector<int> occluders{};           ///< 1 .. 64 each; 1, 2, 4, 8, 16, 32
   std::uint64_t max_memory = MethodOptions{}.max_memory;
   std::vector<std::string> baked{};  ///< files; each is for the method and the world that it names
+  bool bake = false;                 ///< methods that bake do it first, and their cost is told
 };
 
 struct Contender {
   const MethodEntry* method = nullptr;
   MethodOptions options{};
   std::string setting_name{};  ///< "cell", "resolution", "occluders" or ""
-  std::string setting{};       ///< "2 m", "256", "128x72", "auto"
+  std::string setting{};       ///< "2 m", "256", "128x72", "auto", "baked"
   bool is_default = true;      ///< the setting used where nobody asks for another
+  bool to_bake = false;        ///< its file is still to be made
+  BakeCost bake{};             ///< what that cost
 
   /// "voxel, cell 2 m, 1 thread"
   std::string label() const;

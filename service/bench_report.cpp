@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
+#include <string_view>
 
 #include "gridcull/service/build_facts.h"
 #include "gridcull/service/run_report.h"
@@ -42,6 +44,9 @@ constexpr std::array columns{"scene",
                              "pvs_mean",
                              "positions_read_mean",
                              "memory_bytes",
+                             "bake_seconds",
+                             "bake_threads",
+                             "baked_bytes",
                              "cells_visited_mean",
                              "object_tests_mean",
                              "occluders_mean",
@@ -83,6 +88,8 @@ std::vector<std::string> figures(const BenchRow& row) {
   const TimeSamples::Summary total = row.total.summary(first);
   const BenchVerdict& v = row.verdict;
   const bool judged = v.queries > 0;
+  const BakeCost& bake = row.contender.bake;
+  const bool baked = bake.bytes > 0;
   return {std::to_string(row.frames),
           std::to_string(row.repeats),
           std::to_string(row.queries),
@@ -103,6 +110,9 @@ std::vector<std::string> figures(const BenchRow& row) {
           number(row.pvs_mean),
           number(row.positions_read_mean),
           std::to_string(row.memory_bytes),
+          baked ? number(bake.seconds) : "",
+          baked ? std::to_string(bake.threads) : "",
+          baked ? std::to_string(bake.bytes) : "",
           number(row.cells_visited),
           number(row.object_tests),
           number(row.occluders),
@@ -187,6 +197,14 @@ std::string bench_table(const BenchSceneResult& result) {
                 "over-est", "misses", "memory");
   out += line;
   for (const BenchRow& row : result.rows) out += table_row(row);
+  std::set<std::string_view> told;
+  for (const BenchRow& row : result.rows) {
+    const BakeCost& bake = row.contender.bake;
+    if (bake.bytes == 0 || !told.insert(row.contender.method->info.name).second) continue;
+    out += "  " + std::string(row.contender.method->info.name) + " was baked in " + number_text(bake.seconds, 3) +
+           " s on " + counted(static_cast<unsigned long long>(bake.threads), "thread") + ": " +
+           bytes_text(static_cast<double>(bake.bytes)) + "\n";
+  }
   return out;
 }
 

@@ -1,10 +1,14 @@
 // `gridcull bench`: methods against methods, speed against accuracy, in one run.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -132,6 +136,24 @@ void expect_somebody_ran(const BenchSceneResult& result) {
   throw Error(ErrorCode::usage, result.label + ": no method ran: " + why);
 }
 
+/// Each method once, on as many threads as it may have: the file does not depend on them.
+void bake_all(const BenchScene& scene, const std::string& folder, std::vector<Contender>& contenders) {
+  std::map<const MethodEntry*, std::pair<std::string, BakeCost>> done;
+  for (Contender& contender : contenders) {
+    if (!contender.to_bake) continue;
+    const auto [at, is_new] = done.try_emplace(contender.method);
+    auto& [file, cost] = at->second;
+    if (is_new) {
+      file = folder + "/" + std::string(contender.method->info.name) + ".baked";
+      MethodOptions options = contender.options;
+      options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 256u));
+      cost = bake_for_bench(scene, *contender.method, options, file);
+    }
+    contender.options.baked = file;
+    contender.bake = cost;
+  }
+}
+
 std::vector<BenchSceneResult> run_all(const BenchOptions& options, const std::vector<Match>& matches) {
   std::uint64_t total = 0, done = 0;
   for (const Match& match : matches) {
@@ -140,9 +162,12 @@ std::vector<BenchSceneResult> run_all(const BenchOptions& options, const std::ve
   std::vector<BenchSceneResult> results;
   for (const Match& match : matches) {
     {
-      Progress progress("frames, " + match.scene, total);
       const BenchScene scene = open_bench_scene(match.scene);
-      results.push_back(run_bench_scene(scene, match.contenders, options.settings, [&] { progress.update(++done); }));
+      const BakeFolder folder;
+      std::vector<Contender> contenders = match.contenders;
+      bake_all(scene, folder.path(), contenders);
+      Progress progress("frames, " + match.scene, total);
+      results.push_back(run_bench_scene(scene, contenders, options.settings, [&] { progress.update(++done); }));
     }
     expect_somebody_ran(results.back());
     std::fputs(("\n" + bench_table(results.back())).c_str(), stdout);
@@ -235,6 +260,8 @@ void add_options(CLI::App& command, BenchOptions& o) {
   command.add_option("--baked", o.choice.baked, "files that gridcull bake wrote, each for its own method and scene")
       ->delimiter(',')
       ->type_name("FILE,...");
+  command.add_flag("--bake", o.choice.bake,
+                   "first bake what methods work out in advance, on all cores; seconds and bytes go into the table");
   add_text(command, "--out", o.out, "a folder", "folder for bench.csv and the charts; without it only the tables")
       .type_name("DIR");
 }

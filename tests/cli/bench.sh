@@ -77,6 +77,21 @@ is "status after Ctrl-C" "$?" 130
 is "left behind after Ctrl-C" "$(ls -A out)" ""
 grep -q '^gridcull: stopped' stderr.txt || fail "Ctrl-C: said: $(cat stderr.txt)"
 
+# What is worked out in advance is told beside the figures, and leaves nothing behind.
+checks=$((checks + 1))
+mkdir -p tmp
+TMPDIR=$PWD/tmp "$program" bench --bake --scenes town:9:viewers=2:range=50 --methods five-d-tree,frustum --frames 3 \
+  --repeats 1 --out out/baked >stdout.txt 2>stderr.txt || fail "bench --bake: $(cat stderr.txt)"
+grep -q '^  five-d-tree, sets baked, 1 thread' stdout.txt || fail "bench --bake: no row: $(cat stdout.txt)"
+grep -Eq '^  five-d-tree was baked in [0-9.e-]+ s on [0-9]+ threads?: ' stdout.txt || fail "bench --bake: no cost"
+is "left behind by bench --bake" "$(ls -A tmp)" ""
+column() { grep -v '^#' out/baked/bench.csv | head -1 | tr ',' '\n' | grep -n "^$1\$" | cut -d: -f1; }
+for name in bake_seconds bake_threads baked_bytes; do
+  grep '^town.*,five-d-tree,' out/baked/bench.csv | cut -d, -f"$(column $name)" | grep -Eq '^[0-9.e-]+$' || fail "$name"
+  is "$name of frustum" "$(grep '^town.*,frustum,' out/baked/bench.csv | cut -d, -f"$(column $name)")" ""
+done
+rm -rf out/baked
+
 # What cannot run at all is bad input.
 checks=$((checks + 1))
 "$program" bench --scenes spheres:50 --frames 1 --methods voxel --max-memory 1000 --cells 1 --out out/none \
