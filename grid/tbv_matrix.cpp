@@ -1,9 +1,7 @@
 #include "gridcull/grid/tbv_matrix.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 namespace gridcull {
 
@@ -74,6 +72,7 @@ TbvMatrix::BlockSpan TbvMatrix::bricks_of(const Bounds& box) const {
 }
 
 void TbvMatrix::count(const BlockSpan& span, std::uint32_t step) {
+  written_ += span.size();
   for (std::int64_t z = span.low[2]; z <= span.high[2]; ++z) {
     for (std::int64_t y = span.low[1]; y <= span.high[1]; ++y) {
       const std::size_t row = lattice_.brick_index({0, y, z});
@@ -112,6 +111,7 @@ void TbvMatrix::grow_box(Home& home, const Ball& ball) {
 void TbvMatrix::insert(Slot slot, const Ball& ball) {
   Link& link = links_[slot];
   balls_[slot] = ball;
+  ++written_;
   link.level = level_for(ball.radius);
   Level& level = levels_[link.level];
   if (level.homes.empty()) level.homes.resize(static_cast<std::size_t>(level.cells.x * level.cells.y * level.cells.z));
@@ -134,6 +134,7 @@ void TbvMatrix::erase(Slot slot) {
   (link.before == none ? home.head : links_[link.before].after) = link.after;
   if (link.after != none) links_[link.after].before = link.before;
   link.level = none;
+  ++written_;
   --home.size;
   ++home.left;
   --level.size;
@@ -148,83 +149,13 @@ void TbvMatrix::renew(Slot slot, const Ball& ball) {
     if (level_for(ball.radius) == link.level && home_cell(level, ball) == link.cell) {
       Home& home = level.homes[link.cell];
       balls_[slot] = ball;
+      ++written_;
       ++home.left;
       return grow_box(home, ball);
     }
     erase(slot);
   }
   insert(slot, ball);
-}
-
-namespace {
-
-/// The cells of a brick that `bits` (not 0) touches along each axis, as bits 0 .. edge - 1.
-std::array<unsigned, 3> shadows(std::uint64_t bits, bool solid) {
-  // Rows folded on one another; then the rows that hold anything, one bit each, folded likewise.
-  std::uint64_t x = bits | bits >> 32, rows = bits;
-  x |= x >> 16;
-  x |= x >> 8;
-  if (!solid) {
-    for (const int step : {4, 2, 1}) rows |= rows >> step;
-    // Bits 0, 8, 16, ... to the top byte: the products land on distinct bits.
-    const std::uint64_t y = ((rows & 0x0101'0101'0101'0101ull) * 0x0102'0408'1020'4080ull) >> 56;
-    return {static_cast<unsigned>(x & 0xFF), static_cast<unsigned>(y), 1};
-  }
-  x |= x >> 4;
-  rows |= rows >> 2;
-  rows = (rows | rows >> 1) & 0x1111'1111'1111'1111ull;
-  std::uint64_t y = rows | rows >> 32;
-  y |= y >> 16;
-  const auto four = [](std::uint64_t v) { return static_cast<unsigned>((v & 0x1111u) * 0x1248u >> 12 & 0xFu); };
-  unsigned z = 0;
-  for (int layer = 0; layer < 4; ++layer) z |= ((rows >> (16 * layer) & 0xFFFFu) != 0 ? 1u : 0u) << layer;
-  return {static_cast<unsigned>(x & 0xF), four(y), z};
-}
-
-}  // namespace
-
-TbvMatrix::BrickLines TbvMatrix::lines_of(const Cell& corner, std::uint64_t bits) const {
-  BrickLines lines{};
-  lines.corner = corner;
-  lines.low = Vec3(-std::numeric_limits<double>::infinity());
-  lines.high = Vec3(std::numeric_limits<double>::infinity());
-  // Twice the margin of the ball test, so that the filter never says no to what that would find.
-  const std::array<unsigned, 3> along = shadows(bits, lattice_.dimension() == 3);
-  const std::array<std::int64_t, 3> first{corner.x, corner.y, corner.z};
-  for (int k = 0; k < lattice_.dimension(); ++k) {
-    const auto axis = static_cast<std::size_t>(k);
-    lines.low[k] = lattice_.boundary(k, first[axis] + std::countr_zero(along[axis])) - 2.0 * lattice_.margin();
-    lines.high[k] = lattice_.boundary(k, first[axis] + std::bit_width(along[axis])) + 2.0 * lattice_.margin();
-  }
-  return lines;
-}
-
-bool TbvMatrix::ball_touches(const Ball& ball, const BrickLines& lines, std::uint64_t bits) const {
-  const auto edge = static_cast<std::size_t>(lattice_.brick_edge());
-  const double r = ball.radius + lattice_.margin();
-  const std::array<std::int64_t, 3> first{lines.corner.x, lines.corner.y, lines.corner.z};
-  // Squared distance of the centre to cell i along an axis.
-  const auto square = [&](int axis, std::size_t i) {
-    const std::int64_t at = first[static_cast<std::size_t>(axis)] + static_cast<std::int64_t>(i);
-    const double c = ball.centre[axis];
-    const double gap = std::max({lattice_.boundary(axis, at) - c, c - lattice_.boundary(axis, at + 1), 0.0});
-    return gap * gap;
-  };
-  std::array<double, 8> squares_x{}, squares_y{};
-  for (std::size_t i = 0; i < edge; ++i) squares_x[i] = square(0, i), squares_y[i] = square(1, i);
-  const std::size_t layers = lattice_.dimension() == 3 ? edge : 1;
-  const std::uint64_t row_mask = (std::uint64_t{1} << edge) - 1;
-  for (std::size_t z = 0; z < layers; ++z) {
-    const double rest = r * r - (layers > 1 ? square(2, z) : 0.0);
-    for (std::size_t y = 0; y < edge; ++y) {
-      const std::uint64_t row = (bits >> ((z * edge + y) * edge)) & row_mask;
-      if (row == 0) continue;
-      std::uint64_t met = 0;
-      for (std::size_t x = 0; x < edge; ++x) met |= std::uint64_t{squares_x[x] <= rest - squares_y[y]} << x;
-      if ((met & row) != 0) return true;
-    }
-  }
-  return false;
 }
 
 std::uint64_t TbvMatrix::matrix_bytes() const {

@@ -15,15 +15,13 @@
 
 #include "gridcull/grid/identifier_matrix.h"
 #include "gridcull/grid/lattice.h"
+#include "gridcull/grid/tbv_ball.h"
 
 namespace gridcull {
 
 class TbvMatrix {
  public:
-  struct Ball {
-    Vec3 centre{0.0};
-    double radius = 0.0;
-  };
+  using Ball = TbvBall;
 
   explicit TbvMatrix(const Lattice& lattice);
 
@@ -37,6 +35,11 @@ class TbvMatrix {
   struct BlockSpan {
     std::array<std::int64_t, 3> low, high;
     bool operator==(const BlockSpan&) const = default;
+    std::uint64_t size() const {
+      std::uint64_t n = 1;
+      for (std::size_t k = 0; k < 3; ++k) n *= static_cast<std::uint64_t>(high[k] - low[k] + 1);
+      return n;
+    }
   };
   BlockSpan span_of(const Ball& ball) const;
   std::size_t block_index(std::int64_t x, std::int64_t y, std::int64_t z) const {
@@ -73,11 +76,13 @@ class TbvMatrix {
   bool may_touch(std::size_t brick) const { return counts_[brick] != 0; }
 
   /// Calls f(slot) for every volume that may touch one of the cells `bits` of the brick and for which
-  /// wanted(slot). f must not change the matrix. Returns the number of volumes looked at.
+  /// wanted(slot). f must not change the matrix.
   template <class W, class F>
-  std::uint64_t touching(std::size_t brick, std::uint64_t bits, W&& wanted, F&& f) const;
+  TbvLook touching(std::size_t brick, std::uint64_t bits, W&& wanted, F&& f) const;
 
   std::uint64_t matrix_bytes() const;
+  /// Cells of levels and counts of bricks written so far.
+  std::uint64_t places_written() const { return written_; }
   std::uint64_t entry_bytes() const { return links_.capacity() * sizeof(Link) + balls_.capacity() * sizeof(Ball); }
 
  private:
@@ -113,26 +118,6 @@ class TbvMatrix {
   void count(const BlockSpan& span, std::uint32_t step);
   /// First and last index along each axis, after a shift, of the cells that [low, high] may touch.
   BlockSpan cells_of(const Vec3& low, const Vec3& high, int shift) const;
-  /// A brick's lowest cell, and the box around the cells asked about, metres, grown by the margin.
-  struct BrickLines {
-    Cell corner;
-    Vec3 low, high;
-  };
-  /// Cheap filter: whether the ball reaches the box.
-  static bool near(const Ball& ball, const BrickLines& lines) {
-    const auto gap = [&](int k) {
-      return std::max({lines.low[k] - ball.centre[k], ball.centre[k] - lines.high[k], 0.0});
-    };
-    const double x = gap(0), y = gap(1), z = gap(2);
-    return x * x + y * y + z * z <= ball.radius * ball.radius;
-  }
-  static bool meet(const Bounds& box, const BrickLines& lines) {
-    return box.min.x <= lines.high.x && box.max.x >= lines.low.x && box.min.y <= lines.high.y &&
-           box.max.y >= lines.low.y && box.min.z <= lines.high.z && box.max.z >= lines.low.z;
-  }
-  BrickLines lines_of(const Cell& corner, std::uint64_t bits) const;
-  bool ball_touches(const Ball& ball, const BrickLines& lines, std::uint64_t bits) const;
-
   const Lattice& lattice_;
   std::vector<Level> levels_;
   Cell blocks_;                        // along each axis
@@ -141,13 +126,14 @@ class TbvMatrix {
   std::vector<Link> links_;
   std::vector<Ball> balls_;
   std::uint64_t size_ = 0;
+  std::uint64_t written_ = 0;
 };
 
 template <class W, class F>
-std::uint64_t TbvMatrix::touching(std::size_t brick, std::uint64_t bits, W&& wanted, F&& f) const {
-  std::uint64_t looked = 0;
-  const Cell corner = lattice_.brick_corner(brick);
-  const BrickLines lines = lines_of(corner, bits);
+TbvLook TbvMatrix::touching(std::size_t brick, std::uint64_t bits, W&& wanted, F&& f) const {
+  TbvLook looked;
+  const BrickCells asked(lattice_, brick, bits);
+  const Cell& corner = asked.corner();
   const std::int64_t edge = lattice_.brick_edge();
   for (const Level& level : levels_) {
     if (level.size == 0) continue;
@@ -165,11 +151,12 @@ std::uint64_t TbvMatrix::touching(std::size_t brick, std::uint64_t bits, W&& wan
       for (std::int64_t y = low.y; y <= high.y; ++y) {
         for (std::int64_t x = low.x; x <= high.x; ++x) {
           const auto cell = static_cast<std::size_t>((z * level.cells.y + y) * level.cells.x + x);
+          ++looked.places;
           const Home& home = level.homes[cell];
-          if (home.size == 0 || !meet(home.box, lines)) continue;
+          if (home.size == 0 || !asked.meet(home.box)) continue;
           for (std::uint32_t slot = home.head; slot != none; slot = links_[slot].after) {
-            ++looked;
-            if (near(balls_[slot], lines) && wanted(slot) && ball_touches(balls_[slot], lines, bits)) f(slot);
+            ++looked.volumes;
+            if (asked.near(balls_[slot]) && wanted(slot) && asked.touch(balls_[slot])) f(slot);
           }
         }
       }

@@ -152,7 +152,7 @@ void ViewTask::look(std::size_t brick, std::uint64_t bits) {
   pending_.clear();
   const auto wanted = [&](Slot slot) { return stamps_[slot] != stamp_ && slot != rides_; };
   const auto found = [&](Slot slot) { pending_.push_back(slot); };
-  if (solid) answer_->work.tbv_tests += world.tbv.touching(lattice_brick, bits, wanted, found);
+  if (solid) answer_->work.tbv_tests += world.tbv.touching(lattice_brick, bits, wanted, found).volumes;
   if (hollow) answer_->work.tbv_tests += world.hollow.touching(lattice_brick, bits, wanted, found);
   for (const Slot slot : pending_) reveal(slot);
 }

@@ -51,7 +51,9 @@ Chart objects_of_frames(const BenchSceneResult& result) {
 }  // namespace
 
 FigurePlan figure_plan(const std::string& name) {
-  if (name != "batagelo-5") throw Error(ErrorCode::usage, "--figure: expected batagelo-5, found " + name);
+  if (name != "batagelo-5") {
+    throw Error(ErrorCode::usage, "--figure: expected batagelo-5 or tbv-upkeep, found " + name);
+  }
   return {{"spheres:5000:hidden=0", "spheres:5000:hidden=5000", "spheres:5000:hidden=20000",
            "spheres:5000:hidden=80000", walkthrough},
           {"voxel", "silhouette", "frustum"},

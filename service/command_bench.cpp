@@ -25,6 +25,7 @@
 #include "gridcull/service/option_values.h"
 #include "gridcull/service/progress.h"
 #include "gridcull/service/stability.h"
+#include "gridcull/service/tbv_bench.h"
 #include "gridcull/service/text.h"
 
 namespace gridcull {
@@ -176,7 +177,44 @@ std::vector<BenchSceneResult> run_all(const BenchOptions& options, const std::ve
   return results;
 }
 
+/// Writes the files of a run, if any are wanted, and says so.
+void write_out(std::optional<BenchOutput>& output, const std::string& folder, const std::string& csv,
+               const std::vector<Chart>& charts) {
+  if (!output) return;
+  const std::string gnuplot = find_gnuplot();
+  output->commit(csv, charts, gnuplot);
+  std::printf("\n%s/bench.csv%s\n", folder.c_str(),
+              gnuplot.empty()
+                  ? ", and charts as scripts: gnuplot was not found, so none was drawn (Debian: gnuplot-nox)"
+                  : (", " + counted(charts.size(), "chart") + " as .svg, .png and .gp").c_str());
+}
+
+/// The figure that compares indexes, not methods.
+int bench_tbv(const BenchOptions& options) {
+  TbvSettings settings;
+  settings.repeats = options.settings.repeats;
+  std::optional<BenchOutput> output;
+  if (!options.out.empty()) output.emplace(options.out);
+  std::fputs(tbv_head(settings).c_str(), stdout);
+  std::uint64_t done = 0;
+  std::vector<TbvResult> results;
+  for (const std::string& scene : settings.scenes) {
+    {
+      Progress progress("frames, " + scene, tbv_ticks(settings));
+      results.push_back(run_tbv_scene(scene, settings, [&] { progress.update(++done); }));
+    }
+    std::fputs(("\n" + tbv_table(results.back())).c_str(), stdout);
+    std::fflush(stdout);
+  }
+  write_out(output, options.out, tbv_head(settings) + tbv_csv(results), tbv_charts(results));
+  return 0;
+}
+
 int bench(BenchOptions options) {
+  if (options.figure == tbv_figure) {
+    check_settings(options);
+    return bench_tbv(options);
+  }
   take_figure(options);
   check_choice(options);
   check_settings(options);
@@ -189,17 +227,11 @@ int bench(BenchOptions options) {
   check_baked(options, matches);
   std::fputs(bench_head(options.settings).c_str(), stdout);
   const std::vector<BenchSceneResult> results = run_all(options, matches);
-  if (!output) return 0;
-  const std::string gnuplot = find_gnuplot();
   std::vector<Chart> charts = bench_charts(results);
   if (!options.figure.empty()) {
     for (Chart& chart : figure_charts(options.figure, results)) charts.push_back(std::move(chart));
   }
-  output->commit(bench_head(options.settings) + bench_csv(results), charts, gnuplot);
-  std::printf("\n%s/bench.csv%s\n", options.out.c_str(),
-              gnuplot.empty()
-                  ? ", and charts as scripts: gnuplot was not found, so none was drawn (Debian: gnuplot-nox)"
-                  : (", " + counted(charts.size(), "chart") + " as .svg, .png and .gp").c_str());
+  write_out(output, options.out, bench_head(options.settings) + bench_csv(results), charts);
   return 0;
 }
 
@@ -254,7 +286,10 @@ void add_options(CLI::App& command, BenchOptions& o) {
       "answer judged; a table a method");
   stability->excludes(scenes);
   CLI::Option* const figure =
-      command.add_option("--figure", o.figure, "a figure of the papers, made again: batagelo-5")->type_name("NAME");
+      command
+          .add_option("--figure", o.figure,
+                      "a figure of the papers, made again: batagelo-5; or what one leaves open: tbv-upkeep")
+          ->type_name("NAME");
   figure->excludes(scenes);
   figure->excludes(stability);
   command.add_option("--baked", o.choice.baked, "files that gridcull bake wrote, each for its own method and scene")

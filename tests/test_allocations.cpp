@@ -1,5 +1,5 @@
-// A steady frame allocates nothing (core/culler.h), for every conservative method on every generated scene. A program
-// of its own, because it replaces the global operator new.
+// A steady frame allocates nothing (core/culler.h), for every conservative method on every generated scene; nor do the
+// indexes of temporal bounding volumes. A program of its own, because it replaces the global operator new.
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +11,9 @@
 #include <doctest/doctest.h>
 
 #include "gridcull/core/shape.h"
+#include "gridcull/grid/tbv_matrix.h"
+#include "gridcull/grid/tbv_octree.h"
+#include "gridcull/grid/tbv_volume_tree.h"
 #include "gridcull/methods/catalog.h"
 #include "gridcull/sim/generate.h"
 #include "gridcull/sim/replay.h"
@@ -93,6 +96,34 @@ class Counted final : public Culler {
   Culler& culler_;
 };
 
+/// Volumes that go round, vanish and come back, and looks at every brick: allocations of the last laps.
+template <class Index>
+std::uint64_t last_laps(Index& index, const Lattice& lattice) {
+  constexpr Slot slots = 500;
+  constexpr int lap = 30;
+  index.reserve(slots);
+  const auto ball = [](Slot slot, int frame) {
+    const int way = (static_cast<int>(slot) * 7 + frame) % lap;
+    const double along = way < lap / 2 ? way : lap - way;
+    return TbvBall{{6.0 + 1.8 * along, 4.0 + 0.06 * slot, 4.0 + slot % 13}, 0.5 + 0.2 * (slot % 9)};
+  };
+  std::uint64_t before = 0;
+  for (int frame = 0; frame < 6 * lap; ++frame) {
+    if (frame == 4 * lap) before = allocations;
+    for (Slot slot = 0; slot < slots; ++slot) {
+      const bool hidden = (static_cast<int>(slot) + frame) % lap > 3;
+      if (hidden && index.holds(slot)) index.renew(slot, ball(slot, frame));
+      if (hidden && !index.holds(slot)) index.insert(slot, ball(slot, frame));
+      if (!hidden && index.holds(slot)) index.erase(slot);
+    }
+    for (std::size_t brick = 0; brick < lattice.brick_count(); brick += 5) {
+      index.touching(
+          brick, lattice.brick_cells(brick), [](Slot) { return true; }, [](Slot) {});
+    }
+  }
+  return allocations - before;
+}
+
 /// Allocations of the last lap of several.
 std::uint64_t last_lap(const MethodEntry& method, std::string_view scene_name, const std::string& tbv) {
   GenerateOptions options{.count = 100, .frames = 12};
@@ -113,6 +144,16 @@ std::uint64_t last_lap(const MethodEntry& method, std::string_view scene_name, c
 }
 
 }  // namespace
+
+TEST_CASE("indexes of temporal bounding volumes allocate nothing once they have seen their greatest load") {
+  const Lattice lattice(3, Bounds{{0, 0, 0}, {40, 40, 20}}, 0.5, std::uint64_t{1} << 30);
+  TbvMatrix matrix(lattice);
+  TbvOctree octree(lattice);
+  TbvVolumeTree tree(lattice);
+  CHECK(last_laps(matrix, lattice) == 0);
+  CHECK(last_laps(octree, lattice) == 0);
+  CHECK(last_laps(tree, lattice) == 0);
+}
 
 TEST_CASE("the counter counts") {
   const std::uint64_t before = allocations;
