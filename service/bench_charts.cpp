@@ -35,16 +35,28 @@ std::string with_misses(const BenchSceneResult& result, const BenchRow& row) {
   return method_text(row) + " (misses " + text + " %)";
 }
 
+PlotPoint accuracy_point(const BenchRow& row) {
+  return {median_us(row), row.over_estimation(), row.contender.setting, row.verdict.misses > 0};
+}
+
+/// Along a curve settings go by what they report: times are noisy, and a curve by time would zigzag.
+void sort_by_accuracy(PlotCurves& curves) {
+  for (auto& [name, points] : curves) {
+    std::stable_sort(points.begin(), points.end(), [](const PlotPoint& a, const PlotPoint& b) { return a.y > b.y; });
+  }
+}
+
+bool on_accuracy_chart(const BenchRow& row) {
+  return row.refused.empty() && !std::isnan(row.over_estimation()) && row.contender.options.threads == 1;
+}
+
 void add_accuracy(const BenchSceneResult& result, std::vector<Chart>& out) {
   PlotCurves curves;
   for (const BenchRow& row : result.rows) {
-    if (!row.refused.empty() || std::isnan(row.over_estimation()) || row.contender.options.threads != 1) continue;
-    curves[with_misses(result, row)].push_back(
-        {median_us(row), row.over_estimation(), row.contender.setting, row.verdict.misses > 0});
+    if (on_accuracy_chart(row)) curves[with_misses(result, row)].push_back(accuracy_point(row));
   }
   if (curves.empty()) return;
-  // Along a curve the settings go by their time.
-  sort_points(curves);
+  sort_by_accuracy(curves);
   PlotAxes axes{"Speed against accuracy: " + result.label, "microseconds a frame, moves and query (median)",
                 "over-estimation: reported / visible (hollow: misses somebody)"};
   axes.labels = true;
@@ -95,6 +107,18 @@ void add_viewers(std::span<const BenchSceneResult> results, std::vector<Chart>& 
 }
 
 }  // namespace
+
+PlotCurves accuracy_curves(const BenchSceneResult& result) {
+  PlotCurves curves;
+  for (const BenchRow& row : result.rows) {
+    if (!on_accuracy_chart(row)) continue;
+    const bool baked = row.contender.setting == "baked";
+    std::string name(row.contender.method->info.name);
+    curves[baked ? name + ", baked" : name].push_back(accuracy_point(row));
+  }
+  sort_by_accuracy(curves);
+  return curves;
+}
 
 std::vector<Chart> bench_charts(std::span<const BenchSceneResult> results) {
   std::vector<Chart> out;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gridcull/service/bench_plot.h"
 #include "gridcull/service/bench_run.h"
 
 namespace gridcull {
@@ -17,5 +18,8 @@ struct Chart {
 /// Speed against accuracy for each scene, time against hidden objects and time against viewers where scenes of a family
 /// or several numbers of threads were run.
 std::vector<Chart> bench_charts(std::span<const BenchSceneResult> results);
+
+/// Median microseconds a frame against over-estimation on one thread, a curve a method.
+PlotCurves accuracy_curves(const BenchSceneResult& result);
 
 }  // namespace gridcull

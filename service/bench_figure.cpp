@@ -48,23 +48,41 @@ Chart objects_of_frames(const BenchSceneResult& result) {
   return {"walkthrough-objects", plot_script(axes, curves)};
 }
 
+Chart all_scenes(std::span<const BenchSceneResult> results) {
+  std::vector<PlotPanel> panels;
+  for (const BenchSceneResult& result : results) panels.push_back({result.label, accuracy_curves(result)});
+  const PlotAxes axes{"Speed against accuracy: every method, a curve over its setting", "microseconds a frame (median)",
+                      "reported / visible"};
+  return {"speed-accuracy", panels_script(axes, panels)};
+}
+
 }  // namespace
 
 FigurePlan figure_plan(const std::string& name) {
+  if (name == "speed-accuracy") {
+    return {.scenes = {"spheres:5000", "city:10:500", "discs:300", "maze:20", "town:400:viewers=10:range=150"},
+            .frames = 30,
+            .judged = 5,
+            .bake = true,
+            .more_scenes = true};
+  }
   if (name != "batagelo-5") {
-    throw Error(ErrorCode::usage, "--figure: expected batagelo-5 or tbv-upkeep, found " + name);
+    throw Error(ErrorCode::usage, "--figure: expected batagelo-5, speed-accuracy or tbv-upkeep, found " + name);
   }
   return {{"spheres:5000:hidden=0", "spheres:5000:hidden=5000", "spheres:5000:hidden=20000",
            "spheres:5000:hidden=80000", walkthrough},
           {"voxel", "silhouette", "frustum"},
           {2.0, 1.0},
           140,
-          28};
+          28,
+          false,
+          false};
 }
 
 std::vector<Chart> figure_charts(const std::string& name, std::span<const BenchSceneResult> results) {
   (void)figure_plan(name);
   std::vector<Chart> out;
+  if (name == "speed-accuracy") out.push_back(all_scenes(results));
   for (const BenchSceneResult& result : results) {
     if (result.label != walkthrough) continue;
     out.push_back(time_of_frames(result));

@@ -30,4 +30,12 @@ void sort_points(PlotCurves& curves);
 /// ARG1 is the SVG to write, ARG2 the PNG.
 std::string plot_script(const PlotAxes& axes, const PlotCurves& curves);
 
+/// One picture of several plots, each with a title of its own, and a key for all: a curve's name has the same colour
+/// everywhere. Of `axes` the labels are not drawn.
+struct PlotPanel {
+  std::string title{};
+  PlotCurves curves{};
+};
+std::string panels_script(const PlotAxes& axes, const std::vector<PlotPanel>& panels);
+
 }  // namespace gridcull

@@ -1,5 +1,6 @@
 // `gridcull bench`: methods against methods, speed against accuracy, in one run.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -34,16 +35,18 @@ namespace {
 /// 3D reference of the stability suite: its worlds are small and every frame is judged.
 constexpr int stability_rays = 128;
 
+/// A minute or two on two cores. Three sizes of spheres for the chart of hidden objects, three numbers of viewers.
+constexpr std::array standard_scenes{"spheres:1000",
+                                     "spheres:5000",
+                                     "spheres:20000",
+                                     "city:20:1000",
+                                     "discs:300",
+                                     "town:400:viewers=1:range=150",
+                                     "town:400:viewers=10:range=150",
+                                     "town:400:viewers=100:range=150"};
+
 struct BenchOptions {
-  /// A minute or two on two cores. Three sizes of spheres for the chart of hidden objects, three numbers of viewers.
-  std::vector<std::string> scenes{"spheres:1000",
-                                  "spheres:5000",
-                                  "spheres:20000",
-                                  "city:20:1000",
-                                  "discs:300",
-                                  "town:400:viewers=1:range=150",
-                                  "town:400:viewers=10:range=150",
-                                  "town:400:viewers=100:range=150"};
+  std::vector<std::string> scenes{};  ///< empty: standard_scenes, or the figure's
   std::vector<std::string> resolutions{};
   BenchChoice choice{};
   BenchSettings settings{};
@@ -54,13 +57,22 @@ struct BenchOptions {
   std::string figure{};
 };
 
+void refuse_scenes(const BenchOptions& o) {
+  if (!o.scenes.empty()) throw Error(ErrorCode::usage, "--figure: " + o.figure + " excludes --scenes, it has its own");
+}
+
 /// A figure says what runs, how long and how much is judged; repeats and the like stay the user's.
 void take_figure(BenchOptions& o) {
-  if (o.figure.empty()) return;
+  if (o.figure.empty()) {
+    if (o.scenes.empty()) o.scenes.assign(standard_scenes.begin(), standard_scenes.end());
+    return;
+  }
   const FigurePlan plan = figure_plan(o.figure);
-  o.scenes = plan.scenes;
-  o.choice.methods = plan.methods;
-  o.choice.cells = plan.cells;
+  if (!plan.more_scenes) refuse_scenes(o);
+  o.scenes.insert(o.scenes.begin(), plan.scenes.begin(), plan.scenes.end());
+  if (!plan.methods.empty()) o.choice.methods = plan.methods;
+  if (!plan.cells.empty()) o.choice.cells = plan.cells;
+  o.choice.bake = o.choice.bake || plan.bake;
   o.frames = static_cast<std::int64_t>(plan.frames);
   o.judged = static_cast<std::int64_t>(plan.judged);
 }
@@ -212,6 +224,7 @@ int bench_tbv(const BenchOptions& options) {
 
 int bench(BenchOptions options) {
   if (options.figure == tbv_figure) {
+    refuse_scenes(options);
     check_settings(options);
     return bench_tbv(options);
   }
@@ -288,9 +301,9 @@ void add_options(CLI::App& command, BenchOptions& o) {
   CLI::Option* const figure =
       command
           .add_option("--figure", o.figure,
-                      "a figure of the papers, made again: batagelo-5; or what one leaves open: tbv-upkeep")
+                      "batagelo-5: the paper's figure 5 made again; tbv-upkeep: what that paper leaves open; "
+                      "speed-accuracy: every method and setting on every kind of scene, and on --scenes besides")
           ->type_name("NAME");
-  figure->excludes(scenes);
   figure->excludes(stability);
   command.add_option("--baked", o.choice.baked, "files that gridcull bake wrote, each for its own method and scene")
       ->delimiter(',')

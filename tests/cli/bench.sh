@@ -101,8 +101,9 @@ grep -q "no method ran: .*1000 allowed" stderr.txt || fail "no method fits: said
 is "left behind when no method fits" "$(ls -A out/none 2>/dev/null)" ""
 GRIDCULL_ISA=neon refused "a set of instructions that nobody has" "GRIDCULL_ISA: unknown set" \
   bench --scenes discs:50 --frames 1 --methods voxel --out out/none
-refused "a figure that nobody drew" "expected batagelo-5 or tbv-upkeep" bench --figure mona-lisa
+refused "a figure that nobody drew" "expected batagelo-5, speed-accuracy or tbv-upkeep" bench --figure mona-lisa
 refused "a figure and scenes" "excludes" bench --figure batagelo-5 --scenes discs:50
+refused "the volumes and scenes" "excludes" bench --figure tbv-upkeep --scenes discs:50
 refused "a figure of no repeats" "repeats" bench --figure tbv-upkeep --repeats 0
 refused "discs that stand still" "moving" bench --scenes discs:50:moving=3
 refused "stability of what is no method" "found clairvoyance" bench --stability --methods clairvoyance
