@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -32,8 +33,10 @@ constexpr std::array settings{
     BakeSetting{"halvings", "how often a cell may be halved", 2.0, 0.0, 8.0, true},
     BakeSetting{"budget", "a cell that sees no more static objects and motion regions is not halved", 50.0, 0.0, 1e9,
                 true},
-    BakeSetting{"gain", "a cell is halved only where its centre sees less than this share of what the cell sees", 0.8, 0.0,
-                1.0, false},
+    BakeSetting{"gain", "a cell is halved only where its centre sees less than this share of what the cell sees", 0.8,
+                0.0, 1.0, false},
+    BakeSetting{"heading", "degrees by which cells are turned about the vertical, so that they lie along the streets",
+                0.0, -180.0, 180.0, false},
     BakeSetting{"ceiling", "viewers stand at most this many metres above the floor", 1e9, 0.0, 1e9, false},
     BakeSetting{"region", "edge of a motion region, in cells of the lattice", 2.0, 1e-3, 1e6, false},
     BakeSetting{"map", "pixels along a depth map's side", 128.0, 8.0, 4096.0, true},
@@ -52,12 +55,18 @@ double value_of(const ExtendedBakeOptions& options, std::string_view name) {
 
 CellLattice choose_lattice(const ExtendedBakeOptions& options, double floor) {
   CellLattice out;
-  out.origin = options.bounds.min;
-  out.origin.z = std::max(out.origin.z, floor);
+  out.heading = value_of(options, "heading") * (std::numbers::pi / 180.0);
+  const Rotation axes = out.axes();
+  Bounds turned;  // the world's box in the lattice's axes
+  for (const double x : {options.bounds.min.x, options.bounds.max.x}) {
+    for (const double y : {options.bounds.min.y, options.bounds.max.y}) turned.add(axes.inverse({x, y, 0.0}));
+  }
+  out.origin = axes * turned.min;
+  out.origin.z = std::max(options.bounds.min.z, floor);
   out.levels = static_cast<std::uint32_t>(value_of(options, "halvings"));
   const double largest = value_of(options, "largest-cell") * options.cell;
   out.step = std::ldexp(largest, -static_cast<int>(out.levels));
-  Vec3 size = options.bounds.size();
+  Vec3 size = turned.size();
   size.z = std::clamp(options.bounds.max.z - out.origin.z, 0.0, value_of(options, "ceiling"));
   double all = 1.0;
   for (int k = 0; k < 3; ++k) {
@@ -91,7 +100,8 @@ Occludee region_occludee(const Bounds& box) {
 /// Whether all of the cell lies in one convex piece of an occluder.
 bool is_inside(const ViewCell& cell, const Occluder& occluder) {
   if (occluder.thin) return false;
-  const Vec3 low = cell.centre - cell.half, high = cell.centre + cell.half;
+  const Vec3 reach{reach_along(cell, {1, 0, 0}), reach_along(cell, {0, 1, 0}), reach_along(cell, {0, 0, 1})};
+  const Vec3 low = cell.centre - reach, high = cell.centre + reach;
   for (int k = 0; k < 3; ++k) {
     if (low[k] < occluder.box.min[k] || high[k] > occluder.box.max[k]) return false;
   }
@@ -99,7 +109,7 @@ bool is_inside(const ViewCell& cell, const Occluder& occluder) {
     return std::all_of(piece.normals.begin(), piece.normals.end(), [&](const Vec3& normal) {
       double most = -std::numeric_limits<double>::infinity();
       for (const Vec3& p : piece.polytope.points) most = std::max(most, glm::dot(normal, p - cell.centre));
-      return glm::dot(glm::abs(normal), cell.half) <= most;
+      return reach_along(cell, normal) <= most;
     });
   });
 }

@@ -14,7 +14,7 @@
 
 namespace gridcull {
 
-inline constexpr std::uint32_t extended_baked_version = 1;
+inline constexpr std::uint32_t extended_baked_version = 2;
 
 std::span<const BakeSetting> extended_bake_settings();
 

@@ -78,13 +78,17 @@ void write_nodes(const std::vector<NodeKind>& nodes, ByteWriter& out) {
 ViewCell CellLattice::cell(const std::array<std::uint64_t, 3>& at, std::uint32_t level) const {
   const auto edge = static_cast<double>(std::uint64_t{1} << (levels - level));
   ViewCell out;
+  Vec3 middle;
+  double reach = 0.0;
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<double>(at[static_cast<std::size_t>(k)]);
-    const double low = origin[k] + i * step, high = origin[k] + (i + edge) * step;
-    out.centre[k] = 0.5 * (low + high);
-    out.half[k] =
-        0.5 * (high - low) * (1.0 + 1e-12) + 2e-15 * (std::fabs(low) + std::fabs(high) + std::fabs(origin[k]));
+    middle[k] = (i + 0.5 * edge) * step;
+    reach += std::fabs(origin[k]) + (i + edge) * step;
   }
+  out.axes = axes();
+  out.centre = origin + out.axes * middle;
+  // The centre is off by some ten roundings of 2^-53 of `reach`, and so is the place of whoever looks for a cell.
+  out.half = Vec3(0.5 * edge * step * (1.0 + 1e-12) + 4e-15 * reach);
   return out;
 }
 
@@ -134,7 +138,9 @@ BakedCells::BakedCells(const CellLattice& lattice, const MotionRegions& regions,
 }
 
 void BakedCells::write(ByteWriter& out) const {
-  for (const double x : {lattice_.origin.x, lattice_.origin.y, lattice_.origin.z, lattice_.step}) out.f64(x);
+  for (int k = 0; k < 3; ++k) out.f64(lattice_.origin[k]);
+  out.f64(lattice_.heading);
+  out.f64(lattice_.step);
   out.u32(lattice_.levels);
   for (const std::uint32_t n : lattice_.count) out.u32(n);
   for (int k = 0; k < 3; ++k) out.f64(regions_.origin[k]);
@@ -147,6 +153,7 @@ void BakedCells::write(ByteWriter& out) const {
 
 BakedCells::BakedCells(ByteReader& in) {
   for (int k = 0; k < 3; ++k) lattice_.origin[k] = in.f64();
+  lattice_.heading = in.f64();
   lattice_.step = in.f64();
   lattice_.levels = in.u32();
   for (std::uint32_t& n : lattice_.count) n = in.u32();
@@ -157,8 +164,8 @@ BakedCells::BakedCells(ByteReader& in) {
   const auto product = [](const std::array<std::uint32_t, 3>& n) {
     return static_cast<double>(n[0]) * static_cast<double>(n[1]) * static_cast<double>(n[2]);
   };
-  if (!(lattice_.step > 0.0) || lattice_.levels > most_levels || product(lattice_.count) > in.left() ||
-      product(regions_.count) > 1e9) {
+  if (!(lattice_.step > 0.0) || !(std::fabs(lattice_.heading) < 100.0) || lattice_.levels > most_levels ||
+      product(lattice_.count) > in.left() || product(regions_.count) > 1e9) {
     in.refuse("altered: no such lattice of cells");
   }
   std::uint64_t leaves = 0;
@@ -176,6 +183,7 @@ BakedCells::BakedCells(ByteReader& in) {
 }
 
 void BakedCells::index() {
+  axes_ = lattice_.axes();
   skip_.assign(nodes_.size(), 0);
   leaf_rank_.assign(nodes_.size(), 0);
   std::uint32_t leaves = 0;
@@ -198,9 +206,10 @@ void BakedCells::index() {
 
 std::optional<std::uint32_t> BakedCells::find(const Vec3& point) const {
   std::array<std::uint64_t, 3> at{};
+  const Vec3 local = axes_.inverse(point - lattice_.origin);
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    const double i = std::floor((point[k] - lattice_.origin[k]) / lattice_.step);
+    const double i = std::floor(local[k] / lattice_.step);
     if (!(i >= 0.0 && i < std::ldexp(static_cast<double>(lattice_.count[axis]), static_cast<int>(lattice_.levels))))
       return std::nullopt;
     at[axis] = static_cast<std::uint64_t>(i);

@@ -18,14 +18,17 @@ class ByteWriter;
 
 namespace gridcull::extended {
 
-/// Cubes side by side, each halved in all three axes up to `levels` times. Corners are whole steps of the smallest
-/// cell's edge from the origin, so that neighbours share them.
+/// Cubes side by side, each halved in all three axes up to `levels` times; turned about the vertical, so that they lie
+/// along the streets. Corners are whole steps of the smallest cell's edge from the origin, so that neighbours share
+/// them.
 struct CellLattice {
   Vec3 origin{0.0};
-  double step = 1.0;  ///< edge of a smallest cell, metres
+  double heading = 0.0;  ///< radians
+  double step = 1.0;     ///< edge of a smallest cell, metres
   std::uint32_t levels = 0;
   std::array<std::uint32_t, 3> count{};  ///< of largest cells
 
+  Rotation axes() const { return rotation_of(turn_about_z(heading)); }
   std::uint32_t roots() const { return count[0] * count[1] * count[2]; }
   /// The cell of `level` (0: largest) whose lower corner is `at` smallest cells from the origin; grown by the roundings
   /// of its corners.
@@ -90,6 +93,7 @@ class BakedCells {
   std::uint32_t items() const { return objects_ + regions_.size(); }
 
   CellLattice lattice_{};
+  Rotation axes_{};  ///< the lattice's
   MotionRegions regions_{};
   std::uint32_t objects_ = 0;
   std::vector<NodeKind> nodes_{};

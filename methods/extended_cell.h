@@ -24,6 +24,12 @@ inline bool holds(const ViewCell& cell, const Vec3& world) {
   return std::fabs(p.x) <= cell.half.x && std::fabs(p.y) <= cell.half.y && std::fabs(p.z) <= cell.half.z;
 }
 
+/// Half the reach of a cell along a direction of any length.
+inline double reach_along(const ViewCell& cell, const Vec3& n) {
+  return std::fabs(glm::dot(n, cell.axes.x)) * cell.half.x + std::fabs(glm::dot(n, cell.axes.y)) * cell.half.y +
+         std::fabs(glm::dot(n, cell.axes.z)) * cell.half.z;
+}
+
 /// Box in the cell's axes about its centre of a box in the world's.
 inline Bounds into_cell(const ViewCell& cell, const Bounds& world) {
   const Vec3 middle = into_cell(cell, world.centre()), h = 0.5 * world.size();

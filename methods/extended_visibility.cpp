@@ -16,12 +16,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int rough_share = 8;              // the map that chooses a plane is so many times coarser
 constexpr std::size_t most_distances = 12;  // tried for a plane
 
-/// Half the reach of a cell along a direction.
-double reach_along(const ViewCell& cell, const Vec3& n) {
-  return std::fabs(glm::dot(n, cell.axes.x)) * cell.half.x + std::fabs(glm::dot(n, cell.axes.y)) * cell.half.y +
-         std::fabs(glm::dot(n, cell.axes.z)) * cell.half.z;
-}
-
 /// Metres between the piece and the cell along the direction that parts them best; negative when none does.
 double gap_between(const Piece& piece, const ViewCell& cell) {
   double best = -infinity;
