@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -24,24 +23,12 @@
 #include "gridcull/methods/depth_pyramid.h"
 #include "gridcull/methods/depth_scene.h"
 #include "gridcull/methods/flat_world.h"
+#include "gridcull/methods/lap.h"
 #include "gridcull/methods/view_test.h"
+#include "gridcull/methods/world_culler.h"
 
 namespace gridcull {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// Microseconds since it was last asked.
-class Lap {
- public:
-  double next() {
-    const auto now = Clock::now();
-    return std::chrono::duration<double, std::micro>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  Clock::time_point last_ = Clock::now();
-};
 
 /// Depth, left, up of points relative to the eye.
 using Corners = std::vector<Vec3>;
@@ -114,20 +101,15 @@ Place project(const DepthWindow& w, const Corners& corners, PixelBox& pixels, do
   return Place::in_picture;
 }
 
-class DepthRays final : public Culler {
+class DepthRays final : public WorldCuller<FlatWorld> {
  public:
   explicit DepthRays(const DepthRaysOptions& options)
-      : options_(options),
+      : WorldCuller(3, options.bound),
+        options_(options),
         face_(std::max(1, static_cast<int>(std::lround(std::sqrt(1.0 * options.width * options.height))))),
-        world_(3, options.bound),
         scene_(options.bounds.empty() ? Vec3(0.0) : options.bounds.centre()) {}
 
   const MethodInfo& info() const override { return depth_rays_info(); }
-  void add(const Object& object) override { world_.add(object); }
-  void remove(ObjectId object) override { world_.remove(object); }
-  void move(ObjectId object, const Pose& pose) override { world_.move(object, pose); }
-  void set_source(PositionSource* source) override { world_.set_source(source); }
-  void announce_jump(ObjectId object) override { world_.announce_jump(object); }
 
   void query(double time, std::span<const View> views, Answers& out) override {
     Lap whole, lap;
@@ -231,7 +213,6 @@ class DepthRays final : public Culler {
 
   DepthRaysOptions options_;
   int face_;
-  FlatWorld world_;
   DepthScene scene_;
   std::vector<DepthWindow> windows_{};
   std::vector<DepthPyramid> pyramids_{};

@@ -13,7 +13,6 @@
 #include "gridcull/methods/extended_projections.h"
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -25,18 +24,15 @@
 #include "gridcull/methods/extended_baked.h"
 #include "gridcull/methods/extended_cache.h"
 #include "gridcull/methods/flat_world.h"
+#include "gridcull/methods/lap.h"
 #include "gridcull/methods/view_test.h"
+#include "gridcull/methods/world_culler.h"
 
 namespace gridcull {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using extended::CellKey;
 using extended::CellView;
-
-double microseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-}
 
 constexpr int standard_resolution = 256;
 constexpr int mover_halvings = 2;
@@ -47,36 +43,29 @@ extended::CellSettings settings_of(const ExtendedOptions& o) {
   return settings;
 }
 
-class ExtendedProjections final : public Culler {
+class ExtendedProjections final : public WorldCuller<FlatWorld> {
  public:
   explicit ExtendedProjections(const ExtendedOptions& o)
-      : settings_(settings_of(o)),
-        world_(3),
+      : WorldCuller(3),
+        settings_(settings_of(o)),
         cells_(o.bounds, o.cell, settings_, o.max_memory, o.threads),
         baked_file_(o.baked) {}
 
   const MethodInfo& info() const override { return extended_projections_info(); }
-  void add(const Object& object) override { world_.add(object); }
-  void remove(ObjectId object) override { world_.remove(object); }
-  void move(ObjectId object, const Pose& pose) override { world_.move(object, pose); }
-  void set_source(PositionSource* source) override { world_.set_source(source); }
-  void announce_jump(ObjectId object) override { world_.announce_jump(object); }
 
   void query(double time, std::span<const View> views, Answers& out) override {
-    const auto start = Clock::now();
+    Lap whole, lap;
     FrameStats stats;
     refresh();  // first: a baked file that is refused leaves the frame unanswered and everything as it was
     world_.begin_frame(time, views, stats);
-    stats.discretise_us = microseconds_since(start);
-    const auto looking = Clock::now();
+    stats.discretise_us = lap.next();
     baked_ ? find_leaves(views) : find_cells(views);
-    stats.occlude_us = microseconds_since(looking);
-    const auto collecting = Clock::now();
+    stats.occlude_us = lap.next();
     out.views.resize(views.size());
     for (std::size_t i = 0; i < views.size(); ++i) answer(views[i], i, out.views[i]);
     cells_.trim();
-    stats.collect_us = microseconds_since(collecting);
-    stats.total_us = microseconds_since(start);
+    stats.collect_us = lap.next();
+    stats.total_us = whole.next();
     out.stats = stats;
   }
 
@@ -241,7 +230,6 @@ class ExtendedProjections final : public Culler {
   };
 
   extended::CellSettings settings_;
-  FlatWorld world_;
   extended::StaticScene scene_{};
   extended::CellCache cells_;
   std::string baked_file_;

@@ -23,7 +23,6 @@
 #include "gridcull/methods/five_d_tree.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -32,16 +31,12 @@
 #include "gridcull/methods/five_d_bake.h"
 #include "gridcull/methods/five_d_query.h"
 #include "gridcull/methods/flat_world.h"
+#include "gridcull/methods/lap.h"
 #include "gridcull/methods/view_test.h"
+#include "gridcull/methods/world_culler.h"
 
 namespace gridcull {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double microseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-}
 
 /// For a bake that somebody waits for: about a second where there are hundreds of objects, a few milliseconds for ten.
 FiveDOptions small_bake(std::uint64_t statics, int threads) {
@@ -54,28 +49,23 @@ FiveDOptions small_bake(std::uint64_t statics, int threads) {
   return options;
 }
 
-class FiveDTreeCuller final : public Culler {
+class FiveDTreeCuller final : public WorldCuller<FlatWorld> {
  public:
-  explicit FiveDTreeCuller(const FiveDTreeOptions& options) : options_(options), world_(options.dimension) {}
+  explicit FiveDTreeCuller(const FiveDTreeOptions& options) : WorldCuller(options.dimension), options_(options) {}
 
   const MethodInfo& info() const override { return five_d_tree_info(); }
-  void add(const Object& object) override { world_.add(object); }
-  void remove(ObjectId object) override { world_.remove(object); }
-  void move(ObjectId object, const Pose& pose) override { world_.move(object, pose); }
-  void set_source(PositionSource* source) override { world_.set_source(source); }
-  void announce_jump(ObjectId object) override { world_.announce_jump(object); }
 
   void query(double time, std::span<const View> views, Answers& out) override {
-    const auto start = Clock::now();
+    Lap whole, lap;
     FrameStats stats;
     load();
     world_.begin_frame(time, views, stats);
     bake();
     index();
-    stats.discretise_us = microseconds_since(start);
+    stats.discretise_us = lap.next();
     out.views.resize(views.size());
     for (std::size_t i = 0; i < views.size(); ++i) answer(views[i], out.views[i], stats);
-    stats.total_us = microseconds_since(start);
+    stats.total_us = whole.next();
     out.stats = stats;
   }
 
@@ -142,17 +132,16 @@ class FiveDTreeCuller final : public Culler {
   }
 
   void answer(const View& view, Answer& answer, FrameStats& stats) {
-    const auto start = Clock::now();
+    Lap lap;
     answer.viewer = view.viewer;
     answer.visible.clear();
     answer.work = {};
     const ViewTest test(view, options_.dimension);
     find_holders(view.pose.position);
     const bool listed = look_up(view, test.volume(), answer.work);
-    stats.traverse_us += microseconds_since(start);
-    const auto found = Clock::now();
+    stats.traverse_us += lap.next();
     collect(view, test, listed, answer);
-    stats.collect_us += microseconds_since(found);
+    stats.collect_us += lap.next();
   }
 
   /// Fills members_; false where the tree knows nothing.
@@ -230,7 +219,6 @@ class FiveDTreeCuller final : public Culler {
   }
 
   FiveDTreeOptions options_;
-  FlatWorld world_;
   FiveDBaked baked_{};
   bool is_ready_ = false, has_tree_ = false;
   std::uint64_t static_version_ = 0, set_version_ = 0;

@@ -11,7 +11,6 @@
 #include "gridcull/methods/pairwise_rays.h"
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -22,16 +21,12 @@
 #include "gridcull/core/error.h"
 #include "gridcull/methods/bucket_grid.h"
 #include "gridcull/methods/flat_world.h"
+#include "gridcull/methods/lap.h"
 #include "gridcull/methods/view_test.h"
+#include "gridcull/methods/world_culler.h"
 
 namespace gridcull {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double microseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-}
 
 /// What one thread needs for one viewer; storage is reused.
 struct Scratch {
@@ -43,27 +38,22 @@ struct Scratch {
   double us = 0.0;
 };
 
-class PairwiseRays final : public Culler {
+class PairwiseRays final : public WorldCuller<FlatWorld> {
  public:
   explicit PairwiseRays(const PairwiseOptions& options)
-      : options_(options),
-        world_(options.dimension),
+      : WorldCuller(options.dimension),
+        options_(options),
         arena_(std::min(options.threads, tbb::info::default_concurrency())),
         scratches_(static_cast<std::size_t>(arena_.max_concurrency())) {}
 
   const MethodInfo& info() const override { return pairwise_rays_info(); }
-  void add(const Object& object) override { world_.add(object); }
-  void remove(ObjectId object) override { world_.remove(object); }
-  void move(ObjectId object, const Pose& pose) override { world_.move(object, pose); }
-  void set_source(PositionSource* source) override { world_.set_source(source); }
-  void announce_jump(ObjectId object) override { world_.announce_jump(object); }
 
   void query(double time, std::span<const View> views, Answers& out) override {
-    const auto start = Clock::now();
+    Lap whole, lap;
     FrameStats stats;
     world_.begin_frame(time, views, stats);
     index();
-    stats.discretise_us = microseconds_since(start);
+    stats.discretise_us = lap.next();
     out.views.resize(views.size());
     for (Scratch& scratch : scratches_) scratch.us = 0.0;
     if (scratches_.size() == 1 || views.size() < 2) {
@@ -77,7 +67,7 @@ class PairwiseRays final : public Culler {
       });
     }
     for (const Scratch& scratch : scratches_) stats.traverse_us += scratch.us;
-    stats.total_us = microseconds_since(start);
+    stats.total_us = whole.next();
     out.stats = stats;
   }
 
@@ -101,7 +91,7 @@ class PairwiseRays final : public Culler {
   }
 
   void answer(const View& view, Scratch& scratch, Answer& answer) const {
-    const auto start = Clock::now();
+    Lap lap;
     answer.viewer = view.viewer;
     answer.visible.clear();
     answer.work = {};
@@ -117,7 +107,7 @@ class PairwiseRays final : public Culler {
       if (objects[i].object.id != view.rides) answer.visible.push_back(objects[i].object.id);
     }
     std::sort(answer.visible.begin(), answer.visible.end());
-    scratch.us += microseconds_since(start);
+    scratch.us += lap.next();
   }
 
   /// Whether the buckets about the viewer are fewer than the objects.
@@ -192,7 +182,6 @@ class PairwiseRays final : public Culler {
   }
 
   PairwiseOptions options_;
-  FlatWorld world_;
   BucketGrid static_{}, moving_{};
   std::vector<BucketGrid::Item> items_{};
   std::uint64_t static_version_ = 0, moving_version_ = 0, set_version_ = 0;

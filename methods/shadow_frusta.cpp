@@ -15,45 +15,27 @@
 #include "gridcull/methods/shadow_frusta.h"
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "gridcull/core/error.h"
+#include "gridcull/methods/lap.h"
 #include "gridcull/methods/shadow_walk.h"
 #include "gridcull/methods/shadow_world.h"
+#include "gridcull/methods/world_culler.h"
 
 namespace gridcull {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// Microseconds since it was last asked.
-class Lap {
- public:
-  double next() {
-    const auto now = Clock::now();
-    return std::chrono::duration<double, std::micro>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  Clock::time_point last_ = Clock::now();
-};
-
-class ShadowFrusta final : public Culler {
+class ShadowFrusta final : public WorldCuller<ShadowWorld> {
  public:
   explicit ShadowFrusta(const ShadowFrustaOptions& options)
-      : options_(options),
-        world_(options.dimension, options.bound),
+      : WorldCuller(options.dimension, options.bound),
+        options_(options),
         choice_(static_cast<std::size_t>(options.occluders), options.weights) {}
 
   const MethodInfo& info() const override { return shadow_frusta_info(); }
-  void add(const Object& object) override { world_.add(object); }
-  void remove(ObjectId object) override { world_.remove(object); }
-  void move(ObjectId object, const Pose& pose) override { world_.move(object, pose); }
-  void set_source(PositionSource* source) override { world_.set_source(source); }
-  void announce_jump(ObjectId object) override { world_.announce_jump(object); }
 
   void query(double time, std::span<const View> views, Answers& out) override {
     Lap whole, lap;
@@ -96,7 +78,6 @@ class ShadowFrusta final : public Culler {
   }
 
   ShadowFrustaOptions options_;
-  ShadowWorld world_;
   OccluderChoice choice_;
   ShadowWalk walk_{};
   std::vector<std::uint32_t> near_{}, holders_{};

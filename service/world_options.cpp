@@ -120,7 +120,7 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
       .add_option("--bounds", options.bounds,
                   "what objects are tested with: " + bound_kind_names() +
                       ", in their own axes (default: silhouette in 3D the convex hull of small shapes and the box of "
-                      "others, depth-rays the box, frustum the shape itself)")
+                      "others, depth-rays the box, frustum and shadow-frusta the shape itself)")
       ->type_name("KIND");
   command
       .add_option("--occluders", options.occluders,
