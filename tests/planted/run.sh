@@ -1,25 +1,41 @@
 #!/usr/bin/env bash
 # Would the tests notice? Each PATCH (default: all in tests/planted) plants one bug. In a copy of the tree each is applied in
 # turn, and the test files that its line "Caught by:" names must turn red, every one of them.
-#   tests/planted/run.sh [--work FOLDER] [--jobs N] [--table FILE] [PATCH...]
+#   tests/planted/run.sh [--work FOLDER] [--jobs N] [--table FILE] [--check] [PATCH...]
+# --check plants nothing: does each patch apply, and are the tests there that it names?
 # FOLDER (default build/planted) keeps the copy and its build, so that a second run compiles what changed only. The table
 # goes to standard output and to FILE. Status 1 when a bug is not caught, a patch does not apply or does not build, or a
 # test is red without any bug.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 here=$root/tests/planted
-work=$root/build/planted jobs=$(nproc) table=/dev/null patches=()
+work=$root/build/planted jobs=$(nproc) table=/dev/null check=no patches=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --work) work=$(realpath -m "${2:?--work needs a folder}"); shift 2 ;;
     --jobs) jobs="${2:?--jobs needs a number}"; shift 2 ;;
     --table) table=$(realpath -m "${2:?--table needs a file}"); shift 2 ;;
-    --help|-h) sed -n '2,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    --check) check=yes; shift ;;
+    --help|-h) sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
     -*) echo "tests/planted/run.sh: unknown option $1 (see --help)" >&2; exit 2 ;;
     *) patches+=("$(realpath "$1")"); shift ;;
   esac
 done
 [ ${#patches[@]} -gt 0 ] || patches=("$here"/*.patch)
+# field NAME PATCH: the words of its header line.
+field() { sed -n "/^diff\|^---/q; s/^$1: *//p" "$2"; }
+
+if [ "$check" = yes ]; then
+  status=0
+  for patch in "${patches[@]}"; do
+    patch -p1 --batch --forward --dry-run -d "$root" -i "$patch" >/dev/null || { echo "$patch does not apply" >&2; status=1; }
+    for file in $(field 'Caught by' "$patch"); do
+      [ -f "$root/tests/$file" ] || { echo "$patch: no test $file" >&2; status=1; }
+    done
+  done
+  echo "${#patches[@]} patches"
+  exit $status
+fi
 tree=$work/tree build=$work/build log=$work/log
 mkdir -p "$tree" "$build" || exit 2
 : >"$table"
@@ -45,9 +61,6 @@ copy_tree() {
   done < <(files "$root")
   comm -13 <(files "$root") <(files "$tree") | (cd "$tree" && xargs -r -d '\n' rm -f)
 }
-
-# field NAME PATCH: the words of its header line.
-field() { sed -n "/^diff\|^---/q; s/^$1: *//p" "$2"; }
 
 all_tests() { for patch in "${patches[@]}"; do field 'Caught by' "$patch"; done | tr ' ' '\n' | LC_ALL=C sort -u; }
 
