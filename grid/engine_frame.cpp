@@ -11,7 +11,7 @@
 #include "gridcull/core/error.h"
 #include "gridcull/core/view_volume.h"
 #include "gridcull/grid/engine_state.h"
-#include "gridcull/grid/hand_over.h"
+#include "gridcull/core/hand_over.h"
 
 namespace gridcull {
 namespace {

@@ -15,13 +15,13 @@
 #include <numbers>
 
 #include <tbb/info.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "gridcull/core/error.h"
 #include "gridcull/methods/bytes.h"
 #include "gridcull/methods/extended_baked.h"
 #include "gridcull/methods/extended_visibility.h"
+#include "gridcull/methods/parallel.h"
 
 namespace gridcull {
 namespace {
@@ -33,7 +33,7 @@ constexpr std::array settings{
     BakeSetting{"halvings", "how often a cell may be halved", 2.0, 0.0, 8.0, true},
     BakeSetting{"budget", "a cell that sees no more static objects and motion regions is not halved", 50.0, 0.0, 1e9,
                 true},
-    BakeSetting{"gain", "a cell is halved only where its centre sees less than this share of what the cell sees", 0.8,
+    BakeSetting{"gain", "a cell is halved only where its centre sees less than this share of what the cell sees", 0.95,
                 0.0, 1.0, false},
     BakeSetting{"heading", "degrees by which cells are turned about the vertical, so that they lie along the streets",
                 0.0, -180.0, 180.0, false},
@@ -141,19 +141,15 @@ class Bake {
 
   std::optional<std::vector<std::byte>> run(std::span<const std::byte> resume, BakeListener& listener) {
     std::vector<RootCells> roots = read_state(resume);
-    const std::size_t all = lattice_.roots(), batch = 2 * static_cast<std::size_t>(arena_.max_concurrency());
+    const std::size_t all = lattice_.roots(), batch = 4 * static_cast<std::size_t>(arena_.max_concurrency());
     for (std::size_t done = roots.size(); done < all; done = roots.size()) {
       if (!listener.progress(static_cast<double>(done) / static_cast<double>(all))) {
         listener.checkpoint(state_of(roots));
         return std::nullopt;
       }
       roots.resize(std::min(all, done + batch));
-      arena_.execute([&] {
-        tbb::parallel_for(done, roots.size(), [&](std::size_t i) {
-          const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
-          const auto root = static_cast<std::uint32_t>(i);
-          divide(lattice_.corner(root), 0, nullptr, *lookers_[thread], roots[i]);
-        });
+      for_each_on(arena_, done, roots.size(), [&](std::size_t i, std::size_t worker) {
+        divide(lattice_.corner(static_cast<std::uint32_t>(i)), 0, nullptr, *lookers_[worker], roots[i]);
       });
     }
     ByteWriter out;

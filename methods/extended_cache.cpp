@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include <tbb/info.h>
-#include <tbb/parallel_for.h>
+
+#include "gridcull/methods/parallel.h"
 
 namespace gridcull::extended {
 
@@ -68,11 +69,7 @@ void CellCache::need(std::vector<CellKey>& keys) {
     for (std::size_t i = 0; i < missing_.size(); ++i) look(i, *lookers_[0]);
     return;
   }
-  arena_.execute([&] {
-    tbb::parallel_for(std::size_t{0}, missing_.size(), [&](std::size_t i) {
-      look(i, *lookers_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
-    });
-  });
+  for_each_on(arena_, 0, missing_.size(), [&](std::size_t i, std::size_t worker) { look(i, *lookers_[worker]); });
 }
 
 void CellCache::trim() {

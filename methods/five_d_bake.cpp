@@ -12,13 +12,13 @@
 #include <thread>
 
 #include <tbb/info.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "gridcull/core/error.h"
 #include "gridcull/methods/bytes.h"
 #include "gridcull/methods/five_d_payload.h"
 #include "gridcull/methods/five_d_subtree.h"
+#include "gridcull/methods/parallel.h"
 
 namespace gridcull {
 namespace {
@@ -62,14 +62,7 @@ class Bake {
   }
 
   void build_parts() {
-    arena_.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<std::size_t>(0, parts_.size(), 1),
-          [&](const auto& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) build_part(i);
-          },
-          tbb::simple_partitioner());
-    });
+    for_each_on(arena_, 0, parts_.size(), [&](std::size_t i, std::size_t) { build_part(i); });
   }
 
   FiveDBaked result() const {
@@ -99,11 +92,9 @@ class Bake {
   void grow_level() {
     std::vector<std::optional<FiveDSplit>> splits(parts_.size());
     std::vector<std::uint64_t> rays(parts_.size(), 0);
-    arena_.execute([&] {
-      tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) {
-        FiveDScene::Scratch scratch;
-        splits[i] = choose_split(scene_, options_, parts_[i], scratch, rays[i]);
-      });
+    for_each_on(arena_, 0, parts_.size(), [&](std::size_t i, std::size_t) {
+      FiveDScene::Scratch scratch;
+      splits[i] = choose_split(scene_, options_, parts_[i], scratch, rays[i]);
     });
     for (std::size_t i = 0, count = parts_.size(); i < count; ++i) {
       top_rays_ += rays[i];

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include <tbb/info.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "gridcull/core/error.h"
 #include "gridcull/methods/bucket_grid.h"
 #include "gridcull/methods/flat_world.h"
 #include "gridcull/methods/lap.h"
+#include "gridcull/methods/parallel.h"
 #include "gridcull/methods/view_test.h"
 #include "gridcull/methods/world_culler.h"
 
@@ -59,12 +59,8 @@ class PairwiseRays final : public WorldCuller<FlatWorld> {
     if (scratches_.size() == 1 || views.size() < 2) {
       for (std::size_t i = 0; i < views.size(); ++i) answer(views[i], scratches_[0], out.views[i]);
     } else {
-      arena_.execute([&] {
-        tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
-          const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
-          answer(views[i], scratches_[thread], out.views[i]);
-        });
-      });
+      for_each_on(arena_, 0, views.size(),
+                  [&](std::size_t i, std::size_t worker) { answer(views[i], scratches_[worker], out.views[i]); });
     }
     for (const Scratch& scratch : scratches_) stats.traverse_us += scratch.us;
     stats.total_us = whole.next();

@@ -106,6 +106,22 @@ void add_cells(const Contender& plain, const BenchScene& scene, const BenchChoic
   }
 }
 
+/// Every setting with each kind of bound.
+void multiply_by_bounds(const BenchChoice& choice, std::vector<Contender>& contenders) {
+  if (choice.bounds.empty() || !takes(*contenders[0].method, "--bounds")) return;
+  std::vector<Contender> out;
+  for (const BoundKind kind : choice.bounds) {
+    for (Contender one : contenders) {
+      one.options.bound = kind;
+      one.setting_name += one.setting_name.empty() ? "bounds" : " and bounds";
+      one.setting += (one.setting.empty() ? "" : " ") + std::string(name_of(kind));
+      one.is_default = one.is_default && kind == choice.bounds[0];
+      out.push_back(std::move(one));
+    }
+  }
+  contenders = std::move(out);
+}
+
 /// The settings of one method on one scene, threads apart.
 std::vector<Contender> settings_of(const MethodEntry& method, const BenchScene& scene, const BenchChoice& choice) {
   Contender plain;
@@ -128,6 +144,7 @@ std::vector<Contender> settings_of(const MethodEntry& method, const BenchScene& 
     add_baked(plain, scene, choice, out);
     if (out.empty()) out.push_back(plain);
   }
+  multiply_by_bounds(choice, out);
   // A curve without its default: the first stands for it.
   if (std::none_of(out.begin(), out.end(), [](const Contender& c) { return c.is_default; })) out[0].is_default = true;
   return out;

@@ -18,6 +18,7 @@ struct BenchChoice {
   std::vector<Resolution> resolutions{};  ///< R for methods that take R, WxH for those that take WxH
   std::vector<double> cells{};            ///< metres; 2, 1 and 1/2 of the scene's
   std::vector<int> occluders{};           ///< 1 .. 64 each; 1, 2, 4, 8, 16, 32
+  std::vector<BoundKind> bounds{};        ///< what objects are tested with; empty: the method's own choice
   std::uint64_t max_memory = MethodOptions{}.max_memory;
   std::vector<std::string> baked{};  ///< files; each is for the method and the world that it names
   bool bake = false;                 ///< methods that bake do it first, and their cost is told

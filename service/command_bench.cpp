@@ -1,7 +1,6 @@
 // `gridcull bench`: methods against methods, speed against accuracy, in one run.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -28,6 +27,7 @@
 #include "gridcull/service/stability.h"
 #include "gridcull/service/tbv_bench.h"
 #include "gridcull/service/text.h"
+#include "gridcull/service/world_options.h"
 
 namespace gridcull {
 namespace {
@@ -46,12 +46,10 @@ constexpr std::array standard_scenes{"spheres:1000",
                                      "town:400:viewers=100:range=150"};
 
 struct BenchOptions {
-  std::vector<std::string> scenes{};  ///< empty: standard_scenes, or the figure's
-  std::vector<std::string> resolutions{};
+  std::vector<std::string> scenes{};                 ///< empty: standard_scenes, or the figure's
+  std::vector<std::string> resolutions{}, bounds{};  ///< as typed
   BenchChoice choice{};
   BenchSettings settings{};
-  // Signed, so that a number below 0 is seen as such.
-  std::int64_t frames = 40, judged = 3;
   std::string out{};
   bool stability = false;
   std::string figure{};
@@ -73,40 +71,21 @@ void take_figure(BenchOptions& o) {
   if (!plan.methods.empty()) o.choice.methods = plan.methods;
   if (!plan.cells.empty()) o.choice.cells = plan.cells;
   o.choice.bake = o.choice.bake || plan.bake;
-  o.frames = static_cast<std::int64_t>(plan.frames);
-  o.judged = static_cast<std::int64_t>(plan.judged);
+  o.settings.frames = plan.frames;
+  o.settings.judged = plan.judged;
 }
 
 void check_choice(BenchOptions& options) {
   for (const std::string& method : options.choice.methods) (void)find_method(method, "--methods");
-  for (const int threads : options.choice.threads) {
-    if (threads < 1 || threads > 256) throw option_error("--threads", "1 .. 256", std::to_string(threads));
-  }
   for (const std::string& text : options.resolutions) {
     options.choice.resolutions.push_back(parse_resolution(text, "--resolutions"));
   }
-  for (const double cell : options.choice.cells) {
-    if (!(cell > 0.0 && std::isfinite(cell))) throw option_error("--cells", "sizes above 0", number_text(cell));
-  }
-  for (const int count : options.choice.occluders) {
-    if (count < 1 || count > 64) throw option_error("--occluders", "1 .. 64", std::to_string(count));
-  }
+  for (const std::string& name : options.bounds) options.choice.bounds.push_back(parse_bounds(name));
   std::set<std::string> names;
   for (const std::string& scene : options.scenes) {
     (void)parse_bench_scene(scene);
     if (!names.insert(scene).second) throw Error(ErrorCode::usage, "--scenes: " + scene + " stands there twice");
   }
-}
-
-void check_settings(BenchOptions& o) {
-  BenchSettings& s = o.settings;
-  if (o.frames < 1) throw option_error("--frames", "1 or more", std::to_string(o.frames));
-  if (o.judged < 0) throw option_error("--judge", "0 or more", std::to_string(o.judged));
-  s.frames = static_cast<std::uint64_t>(o.frames);
-  s.judged = static_cast<std::uint64_t>(o.judged);
-  if (s.repeats < 1 || s.repeats > 1000) throw option_error("--repeats", "1 .. 1000", std::to_string(s.repeats));
-  if (s.rays < 1 || s.rays > 16384) throw option_error("--rays", "1 .. 16384", std::to_string(s.rays));
-  if (!(s.seconds > 0.0)) throw option_error("--seconds", "seconds above 0", number_text(s.seconds));
 }
 
 /// A scene and who runs on it.
@@ -225,12 +204,10 @@ int bench_tbv(const BenchOptions& options) {
 int bench(BenchOptions options) {
   if (options.figure == tbv_figure) {
     refuse_scenes(options);
-    check_settings(options);
     return bench_tbv(options);
   }
   take_figure(options);
   check_choice(options);
-  check_settings(options);
   if (options.stability) {
     return run_stability_bench(options.choice.methods, {options.settings.repeats, stability_rays}, options.out);
   }
@@ -261,35 +238,35 @@ void add_options(CLI::App& command, BenchOptions& o) {
   command.add_option("--methods", o.choice.methods, "as listed by gridcull methods (default: all that take the scene)")
       ->delimiter(',')
       ->type_name("M,M...");
-  command
-      .add_option("--threads", o.choice.threads, "1 .. 256 each (default 1; 1 and 2 for scenes of ten viewers or more)")
-      ->delimiter(',')
-      ->type_name("N,N...");
+  add_wholes(command, "--threads", o.choice.threads, {1, 256, "1 .. 256"},
+             "1 .. 256 each (default 1; 1 and 2 for scenes of ten viewers or more)");
   command
       .add_option("--resolutions", o.resolutions,
                   "R for methods that take R, 8 .. 8192; WxH for those that take WxH, 1 .. 8192 each")
       ->delimiter(',')
       ->type_name("R|WxH,...");
+  add_positives(command, "--cells", o.choice.cells, {1e9, "sizes above 0, metres"},
+                "metres, for methods whose setting it is (default 2, 1 and 1/2 x the scene's)")
+      .type_name("M,M...");
+  add_wholes(command, "--occluders", o.choice.occluders, {1, 64, "1 .. 64"},
+             "1 .. 64 each, for methods whose setting it is (default 1,2,4,8,16,32)");
   command
-      .add_option("--cells", o.choice.cells,
-                  "metres, for methods whose setting it is (default 2, 1 and 1/2 x the scene's)")
+      .add_option("--bounds", o.bounds,
+                  "each of these for methods that test objects with one: " + bound_kind_names() +
+                      " (default: the method's own choice)")
       ->delimiter(',')
-      ->type_name("M,M...");
-  command
-      .add_option("--occluders", o.choice.occluders,
-                  "1 .. 64 each, for methods whose setting it is (default 1,2,4,8,16,32)")
-      ->delimiter(',')
-      ->type_name("N,N...");
-  command.add_option("--repeats", o.settings.repeats, "times over (default 3)")->type_name("N");
-  command.add_option("--frames", o.frames, "of each scene, at most (default 40)")->type_name("N");
-  command.add_option("--judge", o.judged, "frames held against the exact sets (default 3, 0: none)")->type_name("N");
-  command
-      .add_option("--rays", o.settings.rays,
-                  "3D reference: along a frustum's height or a cube face's edge (default 256)")
-      ->type_name("R");
-  command
-      .add_option("--seconds", o.settings.seconds, "a contender that has used more on a scene is stopped (default 20)")
-      ->type_name("S");
+      ->type_name("KIND,...");
+  add_whole(command, "--repeats", o.settings.repeats, {1, 1000, "1 .. 1000"}, "times over (default 3)");
+  add_whole(command, "--frames", o.settings.frames, {.low = 1, .expected = "a whole number, 1 or more"},
+            "of each scene, at most (default 40)");
+  add_whole(command, "--judge", o.settings.judged, {.expected = "a whole number, 0 or more"},
+            "frames held against the exact sets (default 3, 0: none)");
+  add_whole(command, "--rays", o.settings.rays, {1, 16384, "1 .. 16384"},
+            "3D reference: along a frustum's height or a cube face's edge (default 256)")
+      .type_name("R");
+  add_positive(command, "--seconds", o.settings.seconds, {1e9, "seconds above 0"},
+               "a contender that has used more on a scene is stopped (default 20)")
+      .type_name("S");
   add_whole(command, "--max-memory", o.choice.max_memory, memory_bytes(),
             "refuse grids larger than this (default 4 GiB)")
       .type_name("BYTES");

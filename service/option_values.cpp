@@ -36,27 +36,59 @@ CLI::Option& add_value(CLI::App& command, const std::string& name, const std::st
   return option;
 }
 
+std::uint64_t whole_of(const std::string& name, const WholeRange& range, const std::string& text) {
+  const auto value = parse<std::uint64_t>(text);
+  if (!value || *value < range.low || *value > range.high) throw option_error(name, range.expected, or_nothing(text));
+  return *value;
+}
+
+double number_of(const std::string& name, const PositiveRange& range, const std::string& text) {
+  const auto value = parse<double>(text);
+  const bool good = value && (*value > 0.0 || (range.or_zero && *value == 0.0)) && *value <= range.high;
+  if (!good) throw option_error(name, range.expected, or_nothing(text));
+  return *value;
+}
+
+/// Values with commas between, each made by `read`.
+template <class Number, class Read>
+CLI::Option& add_list(CLI::App& command, const std::string& name, std::vector<Number>& into, const std::string& help,
+                      const Read& read) {
+  const auto take = [&into, read](const CLI::results_t& typed) {
+    into.clear();
+    for (const std::string& text : typed) into.push_back(static_cast<Number>(read(text)));
+    return true;
+  };
+  CLI::Option& option = *command.add_option(name, take, help);
+  return *option.expected(1, CLI::detail::expected_max_vector_size)->delimiter(',');
+}
+
 }  // namespace
+
+CLI::Option& add_wholes(CLI::App& command, const std::string& name, std::vector<int>& into, const WholeRange& range,
+                        const std::string& help) {
+  CLI::Option& option =
+      add_list(command, name, into, help, [=](const std::string& text) { return whole_of(name, range, text); });
+  return *option.type_name("N,N...");
+}
+
+CLI::Option& add_positives(CLI::App& command, const std::string& name, std::vector<double>& into,
+                           const PositiveRange& range, const std::string& help) {
+  CLI::Option& option =
+      add_list(command, name, into, help, [=](const std::string& text) { return number_of(name, range, text); });
+  return *option.type_name("NUMBER,NUMBER...");
+}
 
 CLI::Option& add_whole(CLI::App& command, const std::string& name, const WholeRange& range, const std::string& help,
                        std::function<void(std::uint64_t)> take) {
-  CLI::Option& option = add_value(command, name, help, [=](const std::string& text) {
-    const auto value = parse<std::uint64_t>(text);
-    if (!value || *value < range.low || *value > range.high) {
-      throw option_error(name, range.expected, or_nothing(text));
-    }
-    take(*value);
-  });
+  CLI::Option& option =
+      add_value(command, name, help, [=](const std::string& text) { take(whole_of(name, range, text)); });
   return *option.type_name("N");
 }
 
 CLI::Option& add_positive(CLI::App& command, const std::string& name, const PositiveRange& range,
                           const std::string& help, std::function<void(double)> take) {
-  CLI::Option& option = add_value(command, name, help, [=](const std::string& text) {
-    const auto value = parse<double>(text);
-    if (!value || !(*value > 0.0 && *value <= range.high)) throw option_error(name, range.expected, or_nothing(text));
-    take(*value);
-  });
+  CLI::Option& option =
+      add_value(command, name, help, [=](const std::string& text) { take(number_of(name, range, text)); });
   return *option.type_name("NUMBER");
 }
 

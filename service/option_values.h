@@ -26,10 +26,11 @@ struct WholeRange {
   std::string expected{};
 };
 
-/// Numbers above 0 and at most `high`, and the words for them.
+/// Numbers above 0, or from 0 on, and at most `high`, and the words for them.
 struct PositiveRange {
   double high = 1e9;
   std::string expected = "a number above 0 and at most 1e9";
+  bool or_zero = false;
 };
 
 inline PositiveRange positive_metres() { return {1e9, "metres above 0 and at most 1e9"}; }
@@ -61,6 +62,12 @@ CLI::Option& add_positive(CLI::App& command, const std::string& name, Number& in
                           const std::string& help) {
   return add_positive(command, name, range, help, [&into](double value) { into = value; });
 }
+
+/// One or more, with commas between; each is checked as by add_whole() and add_positive().
+CLI::Option& add_wholes(CLI::App& command, const std::string& name, std::vector<int>& into, const WholeRange& range,
+                        const std::string& help);
+CLI::Option& add_positives(CLI::App& command, const std::string& name, std::vector<double>& into,
+                           const PositiveRange& range, const std::string& help);
 
 /// As many finite numbers of magnitude at most 1e9 as `count`, with commas between.
 CLI::Option& add_numbers(CLI::App& command, const std::string& name, std::vector<double>& into, std::size_t count,

@@ -18,21 +18,12 @@
 namespace gridcull {
 namespace {
 
-BoundKind parse_bounds(const std::string& name) {
-  const std::optional<BoundKind> kind = find_bound_kind(name);
-  if (!kind) throw option_error("--bounds", bound_kind_names(), name);
-  return *kind;
-}
-
 void check_options(const WorldOptions& options) {
   if (options.tbv != "off" && options.tbv != "solid" && options.tbv != "hollow") {
     throw option_error("--tbv", "off, solid or hollow", options.tbv);
   }
   if (!options.resolution.empty()) (void)parse_resolution(options.resolution);
   if (!options.bounds.empty()) (void)parse_bounds(options.bounds);
-  if (options.occluders < 1 || options.occluders > 64) {
-    throw option_error("--occluders", "1 .. 64", std::to_string(options.occluders));
-  }
   keep_apart(input_files(options), {});
 }
 
@@ -61,6 +52,12 @@ std::string cell_source(const WorldOptions& options, const Scene& scene) {
 }
 
 }  // namespace
+
+BoundKind parse_bounds(const std::string& name) {
+  const std::optional<BoundKind> kind = find_bound_kind(name);
+  if (!kind) throw option_error("--bounds", bound_kind_names(), name);
+  return *kind;
+}
 
 Lattice make_lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t max_memory,
                      const std::string& source) {
@@ -112,20 +109,16 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
            "what gridcull bake wrote for this method and scene; without it the method "
            "bakes a little at the first frame")
       .type_name("FILE");
-  command
-      .add_option("--view-box", options.view_box,
-                  "five-d-tree: edge of the box about a viewpoint that its queries take (default 0)")
-      ->type_name("METRES");
-  command
-      .add_option("--bounds", options.bounds,
-                  "what objects are tested with: " + bound_kind_names() +
-                      ", in their own axes (default: silhouette in 3D the convex hull of small shapes and the box of "
-                      "others, depth-rays the box, frustum and shadow-frusta the shape itself)")
-      ->type_name("KIND");
-  command
-      .add_option("--occluders", options.occluders,
-                  "shadow-frusta: used at most for each frame and viewer, 1 .. 64 (default 8)")
-      ->type_name("N");
+  add_positive(command, "--view-box", options.view_box, {1e9, "0 or more metres, at most 1e9", true},
+               "five-d-tree: edge of the box about a viewpoint that its queries take (default 0)")
+      .type_name("METRES");
+  add_text(command, "--bounds", options.bounds, bound_kind_names(),
+           "what objects are tested with: " + bound_kind_names() +
+               ", in their own axes (default: silhouette in 3D the convex hull of small shapes and the box of "
+               "others, depth-rays the box, frustum and shadow-frusta the shape itself)")
+      .type_name("KIND");
+  add_whole(command, "--occluders", options.occluders, {1, 64, "1 .. 64"},
+            "shadow-frusta: used at most for each frame and viewer, 1 .. 64 (default 8)");
   command.add_flag("--pull", options.pull,
                    "the method asks for the positions that it needs, instead of being told all");
 }

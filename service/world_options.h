@@ -47,6 +47,9 @@ Lattice make_lattice(int dimension, const Bounds& bounds, double cell, std::uint
 /// SCENE and, where they are named, --frames and --baked.
 std::vector<NamedFile> input_files(const WorldOptions& options);
 
+/// `--bounds` by name. Throws Error(usage).
+BoundKind parse_bounds(const std::string& name);
+
 /// SCENE, --frames, --cell and --max-memory.
 void add_scene_options(CLI::App& command, WorldOptions& options);
 /// --method, --threads, --tbv, --pull, and the settings of single methods.

@@ -39,6 +39,11 @@ good "a folder" bench --scenes world --methods frustum --repeats 1
 grep -q "^world: 2D, 30 objects" stdout.txt || fail "a folder: $(cat stdout.txt)"
 good "files" bench --scenes world/scene.json@world/frames.jsonl --methods frustum --repeats 1
 
+good "bounds" bench --scenes spheres:60 --methods frustum,silhouette --bounds box,sphere --resolutions 64 --frames 2 --repeats 1
+for row in "frustum, bounds box" "frustum, bounds sphere" "silhouette, resolution and bounds 64 sphere"; do
+  grep -q "^  $row, 1 thread" stdout.txt || fail "no row '$row': $(cat stdout.txt)"
+done
+
 r() { refused "$1" "$2" bench "${@:3}" --out out/b; }
 r "unknown scene" "volcano" --scenes volcano
 r "no such file" "missing" --scenes missing/scene.json
@@ -59,6 +64,9 @@ r "0 frames" "frames" --frames 0
 r "frames below 0" "frames" --frames -1
 r "judge below 0" "judge" --judge -1
 r "0 rays" "rays" --rays 0
+r "half a repeat" "repeats: expected 1 .. 1000, found 1.5" --repeats 1.5
+r "seconds below 0" "seconds" --seconds -1
+r "a bound nobody has" "26-dop" --bounds 16-dop
 refused "a file as folder" "world/scene.json" bench "${small[@]}" --out world/scene.json
 refused "resolution 0 to run" "resolution" run world/scene.json --resolution 0
 refused "resolution above 8192 to run" "resolution" run world/scene.json --resolution 9000
