@@ -84,6 +84,12 @@ class Lattice {
   }
   /// Lowest cell of a brick.
   Cell brick_corner(std::size_t brick) const;
+  /// The cell of a brick's bit: the other way round.
+  Cell cell_at(std::size_t brick, int bit) const {
+    const Cell corner = brick_corner(brick);
+    if (dimension_ == 2) return {corner.x + (bit & 7), corner.y + (bit >> 3), 0};
+    return {corner.x + (bit & 3), corner.y + (bit >> 2 & 3), corner.z + (bit >> 4)};
+  }
   /// The bits of a brick that are cells of the lattice (bricks at the upper edges may stick out).
   std::uint64_t brick_cells(std::size_t brick) const;
 

@@ -15,6 +15,9 @@ using Kind = OccluderPart::Kind;
 constexpr std::size_t most_front_faces = 8;
 /// Vertices nearer than so many blurs are not looked at: second-order terms stay below a tenth of the margins.
 constexpr double least_distance_in_blurs = 64.0;
+/// Solids and outlines narrower than so many blurs hide nothing: what has no area but for rounding has no interior
+/// (three corners in a row, say), and core/exact.h takes walls nearer to each other than that for one place.
+constexpr double least_width_in_blurs = 16.0;
 
 /// All terms of a plane's error, twice over (second order, rounding of the margins themselves): `lean` is by how much
 /// its normal may be off, from `spread`: the vertices' share, over the length of the vector product it was made of,
@@ -90,6 +93,8 @@ bool ShadowFrustum::build(const OccluderPart& part, const Pose& pose, const Rota
   has_near_ = cone_ = false;
   const double blur = blur_of(pose.position, part.reach, eye);
   if (part.kind == Kind::ball) return build_ball(part, pose, eye, blur);
+  const bool has_interior = part.kind == Kind::solid || part.kind == Kind::outline;
+  if (has_interior && !(part.width > least_width_in_blurs * blur)) return false;
   for (const Vec3& v : part.vertices) {
     Vec3 p = to_world(pose, rotation, v) - eye;
     if (part.flat) p.z = 0.0;

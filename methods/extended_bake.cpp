@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <numbers>
 
@@ -37,7 +38,10 @@ constexpr std::array settings{
                 0.0, 1.0, false},
     BakeSetting{"heading", "degrees by which cells are turned about the vertical, so that they lie along the streets",
                 0.0, -180.0, 180.0, false},
-    BakeSetting{"ceiling", "viewers stand at most this many metres above the floor", 1e9, 0.0, 1e9, false},
+    BakeSetting{"ceiling",
+                "viewers stand at most this many metres above the floor; 0: 2 m above what moves, any height where "
+                "nothing does",
+                0.0, 0.0, 1e9, false},
     BakeSetting{"region", "edge of a motion region, in cells of the lattice", 2.0, 1e-3, 1e6, false},
     BakeSetting{"map", "pixels along a depth map's side", 128.0, 8.0, 4096.0, true},
     BakeSetting{"planes", "projection planes in each of six directions", 4.0, 1.0, 16.0, true},
@@ -53,7 +57,19 @@ double value_of(const ExtendedBakeOptions& options, std::string_view name) {
   return bake_setting(options.settings, *found);
 }
 
-CellLattice choose_lattice(const ExtendedBakeOptions& options, double floor) {
+/// Metres above the floor up to which viewers are expected.
+double ceiling_of(std::span<const Object> objects, const ExtendedBakeOptions& options, double floor) {
+  const double asked = value_of(options, "ceiling");
+  if (asked > 0.0) return asked;
+  double top = -std::numeric_limits<double>::infinity();
+  for (const Object& object : objects) {
+    if (!object.is_static) top = std::max(top, make_occludee(object).box.max.z);
+  }
+  constexpr double above_movers = 2.0;
+  return top > floor ? top - floor + above_movers : std::numeric_limits<double>::infinity();
+}
+
+CellLattice choose_lattice(std::span<const Object> objects, const ExtendedBakeOptions& options, double floor) {
   CellLattice out;
   out.heading = value_of(options, "heading") * (std::numbers::pi / 180.0);
   const Rotation axes = out.axes();
@@ -67,7 +83,7 @@ CellLattice choose_lattice(const ExtendedBakeOptions& options, double floor) {
   const double largest = value_of(options, "largest-cell") * options.cell;
   out.step = std::ldexp(largest, -static_cast<int>(out.levels));
   Vec3 size = turned.size();
-  size.z = std::clamp(options.bounds.max.z - out.origin.z, 0.0, value_of(options, "ceiling"));
+  size.z = std::clamp(options.bounds.max.z - out.origin.z, 0.0, ceiling_of(objects, options, out.origin.z));
   double all = 1.0;
   for (int k = 0; k < 3; ++k) {
     const double n = std::max(1.0, std::ceil(size[k] / largest - 1e-9));
@@ -124,7 +140,7 @@ class Bake {
     std::vector<const Object*> pointers;
     for (const Object& object : objects) pointers.push_back(&object);
     scene_ = make_static_scene(pointers, least_angle(settings_.resolution));
-    lattice_ = choose_lattice(options, scene_.floor.height);
+    lattice_ = choose_lattice(objects, options, scene_.floor.height);
     regions_ = choose_regions(objects, options.bounds, value_of(options, "region") * options.cell, scene_.floor.height,
                               most_regions);
     objects_ = static_cast<std::uint32_t>(scene_.occludees.size());
@@ -149,7 +165,7 @@ class Bake {
       }
       roots.resize(std::min(all, done + batch));
       for_each_on(arena_, done, roots.size(), [&](std::size_t i, std::size_t worker) {
-        divide(lattice_.corner(static_cast<std::uint32_t>(i)), 0, nullptr, *lookers_[worker], roots[i]);
+        divide(lattice_.corner(static_cast<std::uint32_t>(i)), 0, {}, *lookers_[worker], roots[i]);
       });
     }
     ByteWriter out;
@@ -158,8 +174,14 @@ class Bake {
   }
 
  private:
-  void divide(const std::array<std::uint64_t, 3>& at, std::uint32_t level, const std::vector<std::uint32_t>* parent,
-              CellLooker& looker, RootCells& out) const {
+  /// What a cell's parents see and which occluders they touch: what these hide is hidden from the cell by them.
+  struct Known {
+    const std::vector<std::uint32_t>* visible = nullptr;  ///< null: nothing is known
+    std::vector<ObjectId> touching{};
+  };
+
+  void divide(const std::array<std::uint64_t, 3>& at, std::uint32_t level, const Known& known, CellLooker& looker,
+              RootCells& out) const {
     const ViewCell cell = lattice_.cell(at, level);
     if (std::any_of(scene_.occluders.begin(), scene_.occluders.end(),
                     [&](const Occluder& o) { return is_inside(cell, o); })) {
@@ -167,19 +189,22 @@ class Bake {
       return;
     }
     CellView view;
-    looker.look(cell, true, no_id, parent, view);
+    looker.look(cell, true, no_id, known.visible, view);
+    Known now{&view.visible, {}};
+    std::set_union(view.touching.begin(), view.touching.end(), known.touching.begin(), known.touching.end(),
+                   std::back_inserter(now.touching));
     if (level == lattice_.levels || view.visible.size() <= budget_ || !worth_halving(cell, view, looker)) {
       out.nodes.push_back(NodeKind::leaf);
       LeafSet& leaf = out.leaves.emplace_back();
       leaf.visible = std::move(view.visible);
-      for (const ObjectId id : view.touching) leaf.touching.push_back(place_of(id));
+      for (const ObjectId id : now.touching) leaf.touching.push_back(place_of(id));
       return;
     }
     out.nodes.push_back(NodeKind::split);
     const std::uint64_t half = std::uint64_t{1} << (lattice_.levels - level - 1);
     for (std::uint64_t child = 0; child < 8; ++child) {
-      divide({at[0] + half * (child & 1), at[1] + half * (child >> 1 & 1), at[2] + half * (child >> 2)}, level + 1,
-             &view.visible, looker, out);
+      divide({at[0] + half * (child & 1), at[1] + half * (child >> 1 & 1), at[2] + half * (child >> 2)}, level + 1, now,
+             looker, out);
     }
   }
 

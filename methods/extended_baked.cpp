@@ -164,7 +164,11 @@ BakedCells::BakedCells(ByteReader& in) {
   const auto product = [](const std::array<std::uint32_t, 3>& n) {
     return static_cast<double>(n[0]) * static_cast<double>(n[1]) * static_cast<double>(n[2]);
   };
-  if (!(lattice_.step > 0.0) || !(std::fabs(lattice_.heading) < 100.0) || lattice_.levels > most_levels ||
+  bool finite = std::isfinite(lattice_.step);
+  for (int k = 0; k < 3; ++k) {
+    finite = finite && std::isfinite(lattice_.origin[k]) && std::isfinite(regions_.origin[k]) && regions_.edge[k] > 0.0;
+  }
+  if (!finite || !(lattice_.step > 0.0) || !(std::fabs(lattice_.heading) < 100.0) || lattice_.levels > most_levels ||
       product(lattice_.count) > in.left() || product(regions_.count) > 1e9) {
     in.refuse("altered: no such lattice of cells");
   }
@@ -172,14 +176,27 @@ BakedCells::BakedCells(ByteReader& in) {
   for (std::uint32_t r = 0; r < lattice_.roots(); ++r) leaves += read_nodes(in, lattice_.levels, nodes_);
   const auto sets = in.block();
   sets_.assign(sets.begin(), sets.end());
+  read_starts(leaves);
+  index();
+}
+
+/// Where each leaf's bytes begin; checks that they are lists of what there is, and differences of what is there.
+void BakedCells::read_starts(std::uint64_t leaves) {
   ByteReader reader(sets_, "its sets");
-  std::vector<std::uint32_t> list;
+  std::vector<std::uint32_t> touching, added, removed, visible;
   for (std::uint64_t leaf = 0; leaf < leaves; ++leaf) {
     starts_.push_back(sets_.size() - reader.left());
-    for (int k = 0; k < 3; ++k) read_list(reader, items(), list);
+    read_list(reader, objects_, touching);
+    read_list(reader, items(), added);
+    read_list(reader, items(), removed);
+    if (leaf % key_every == 0) visible.clear();
+    std::vector<std::uint32_t> kept = without(visible, removed);
+    if (kept.size() + removed.size() != visible.size()) reader.refuse("altered: what is not there is taken away");
+    if (without(added, kept).size() != added.size()) reader.refuse("altered: what is there is added");
+    visible.clear();
+    std::merge(kept.begin(), kept.end(), added.begin(), added.end(), std::back_inserter(visible));
   }
   reader.finish();
-  index();
 }
 
 void BakedCells::index() {

@@ -89,6 +89,7 @@ class BakedCells {
     std::uint32_t node = 0;  ///< first in nodes_
     std::uint32_t leaf = 0;  ///< first of its leaves
   };
+  void read_starts(std::uint64_t leaves);
   void index();
   std::uint32_t items() const { return objects_ + regions_.size(); }
 

@@ -65,11 +65,16 @@ void CellCache::need(std::vector<CellKey>& keys) {
     const auto [key, view] = missing_[i];
     looker.look(cell_of(*key), !key->below, key->without, nullptr, *view);
   };
-  if (missing_.size() < 2 || lookers_.size() == 1) {
-    for (std::size_t i = 0; i < missing_.size(); ++i) look(i, *lookers_[0]);
-    return;
+  try {
+    if (missing_.size() < 2 || lookers_.size() == 1) {
+      for (std::size_t i = 0; i < missing_.size(); ++i) look(i, *lookers_[0]);
+    } else {
+      for_each_on(arena_, 0, missing_.size(), [&](std::size_t i, std::size_t worker) { look(i, *lookers_[worker]); });
+    }
+  } catch (...) {  // a cell that was not looked out of to the end must not be found
+    for (const auto& [key, view] : missing_) cells_.erase(CellKey(*key));
+    throw;
   }
-  for_each_on(arena_, 0, missing_.size(), [&](std::size_t i, std::size_t worker) { look(i, *lookers_[worker]); });
 }
 
 void CellCache::trim() {

@@ -229,6 +229,19 @@ void add_faces(const Faces& faces, const std::vector<Vec3>& world, double blur, 
   }
 }
 
+void set_width(Piece& piece) {
+  for (const Vec3& normal : piece.normals) {
+    const double length = glm::length(normal);
+    if (!(length > 0.0)) continue;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vec3& p : piece.polytope.points) {
+      const double along = glm::dot(normal, p - piece.polytope.points[0]) / length;
+      low = std::min(low, along), high = std::max(high, along);
+    }
+    piece.width = std::min(piece.width, high - low);
+  }
+}
+
 double size_of(const Vec3& p) { return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z); }
 
 }  // namespace
@@ -264,7 +277,8 @@ Occluder make_occluder(const Object& object) {
   } else if (const auto* faces = std::get_if<Faces>(&object.shape)) {
     add_faces(*faces, world, 0.25 * out.blur, out.pieces);
   }
-  for (const Piece& piece : out.pieces) {
+  for (Piece& piece : out.pieces) {
+    set_width(piece);
     for (const Vec3& p : piece.polytope.points) out.box.add(p);
   }
   // Exactly vertical: then upper and lower points have the same x and y, bit for bit.

@@ -1,6 +1,7 @@
 // Occluders as convex pieces, and occludees as points: what extended projections are made of.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "gridcull/core/bounds.h"
@@ -14,6 +15,8 @@ namespace gridcull::extended {
 struct Piece {
   Polytope polytope{};
   std::vector<Vec3> normals{};  ///< outward directions (any length) of planes that may part it from a cell
+  /// Least extent along those, metres; infinity for faces, which need none.
+  double width = std::numeric_limits<double>::infinity();
 };
 
 /// A static occluder. Its pieces lie in the shape, to within `blur`.

@@ -15,6 +15,9 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int rough_share = 8;              // the map that chooses a plane is so many times coarser
 constexpr std::size_t most_distances = 12;  // tried for a plane
+/// Of the coordinates: narrower pieces hide nothing. Where an outline runs back on itself rounding alone gives a
+/// piece its width, and core/exact.h takes walls nearer than 1e-12 of the coordinates for one place.
+constexpr double least_width = 4e-12;
 
 /// Metres between the piece and the cell along the direction that parts them best; negative when none does.
 double gap_between(const Piece& piece, const ViewCell& cell) {
@@ -136,7 +139,11 @@ bool CellLooker::draw(Outlook& outlook, const ViewCell& cell, std::uint32_t cand
   const double near = std::max(box.min.z, outlook.plane.near), far = std::min(box.max.z, outlook.plane.distance);
   const int cuts = far - near < 0.2 * (near + outlook.plane.half.z) ? 1 : 2;
   bool any = false;
-  for (const Polytope& p : local(cell, candidate)) {
+  const double least = least_width * (size_of(cell.centre) + size_of(occluder.box.min) + size_of(occluder.box.max));
+  const std::span<const Polytope> polytopes = local(cell, candidate);
+  for (std::size_t i = 0; i < polytopes.size(); ++i) {
+    if (!(occluder.pieces[i].width > least)) continue;
+    const Polytope& p = polytopes[i];
     turned_.points.clear();
     for (const Vec3& x : p.points) turned_.points.push_back(outlook.facing(x));
     turned_.edges = p.edges;

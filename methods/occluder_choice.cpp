@@ -74,7 +74,11 @@ void OccluderChoice::begin_frame(const ShadowWorld& world, std::size_t views) {
   if (entries_version_ == world.entries_version()) return;
   entries_version_ = world.entries_version();
   places_.assign(world.entries().size(), RankedList::no_place);
-  for (auto& [id, viewer] : viewers_) viewer.ranked.forget();
+  for (auto& [id, viewer] : viewers_) {
+    viewer.ranked.forget();
+    // An id may have come back with another shape.
+    for (Track& track : viewer.tracks) track.silhouette.known = false;
+  }
 }
 
 void OccluderChoice::add_candidate(const ShadowWorld& world, std::uint32_t entry, double sampled, const Vec3& eye) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -29,6 +30,18 @@ void finish(OccluderPart& part) {
     part.radius = std::max(part.radius, glm::length(v - part.centre));
     part.reach = std::max(part.reach, glm::length(v) * (1.0 + 0x1p-40));
   }
+}
+
+/// Least extent of the points across one of the planes through a point that has this normal.
+void add_width(const std::vector<Vec3>& points, const Vec3& normal, double& width) {
+  const double length = glm::length(normal);
+  if (!(length > 0.0)) return;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& p : points) {
+    const double along = glm::dot(normal, p - points[0]) / length;
+    low = std::min(low, along), high = std::max(high, along);
+  }
+  width = std::min(width, high - low);
 }
 
 /// Those three corners of the face that span the greatest triangle with its first.
@@ -68,6 +81,8 @@ OccluderPart solid(std::vector<Vec3> vertices, const std::vector<Loop>& loops) {
     const auto other = face_of.find({edge[1], edge[0]});
     if (edge[0] < edge[1] && other != face_of.end()) part.edges.push_back({edge[0], edge[1], face, other->second});
   }
+  part.width = std::numeric_limits<double>::infinity();
+  for (const Loop& loop : loops) add_width(part.vertices, area_of(part.vertices, loop), part.width);
   finish(part);
   return part;
 }
@@ -162,6 +177,11 @@ OccluderPart outline_part(const std::vector<Vec2>& outline) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   part.area = {high.y - low.y, high.x - low.x, 0.0};
+  part.width = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < part.vertices.size(); ++i) {
+    const Vec3 along = part.vertices[(i + 1) % part.vertices.size()] - part.vertices[i];
+    add_width(part.vertices, {along.y, -along.x, 0.0}, part.width);
+  }
   finish(part);
   return part;
 }

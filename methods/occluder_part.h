@@ -36,6 +36,8 @@ struct OccluderPart {
   Vec3 centre{0.0};           ///< of the vertices
   double radius = 0.0;        ///< a ball's own; else about `centre`, to rank parts by
   double reach = 0.0;         ///< greatest distance from the local origin, rounded up
+  /// solid, outline: about its least width, metres (over its faces: at most a few times too much).
+  double width = 0.0;
   /// What it covers, to rank parts by. Square metres (2D: metres). Ball: x is its great circle (diameter); face, wall:
   /// area times normal; else the areas (widths) seen along each local axis.
   Vec3 area{0.0};

@@ -49,7 +49,7 @@ BakeCost bake_for_bench(const BenchScene& scene, const MethodEntry& method, cons
   Listener listener("baking " + std::string(method.info.name) + ", " + scene.label);
   const auto start = std::chrono::steady_clock::now();
   const auto payload = method.baking.bake(objects, options, {}, listener);
-  if (!payload) throw Stopped{""};
+  if (!payload) throw Stopped{};
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_baked(file, {std::string(method.info.name), method.baking.version, static_world_hash(objects)}, *payload);
   return {seconds, options.threads, fs::file_size(file)};

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -68,7 +69,7 @@ BakeSettings choose_settings(const BakeOptions& options, const MethodEntry& meth
 
 /// Everything besides the world that the result depends on.
 std::string settings_text(const MethodEntry& method, const MethodOptions& options) {
-  std::string text = "bounds";
+  std::string text = "cell " + number_text(options.cell, 17) + ", bounds";
   for (const Vec3& corner : {options.bounds.min, options.bounds.max}) {
     for (int k = 0; k < 3; ++k) text += " " + number_text(corner[k], 17);
   }
@@ -81,7 +82,8 @@ std::string settings_text(const MethodEntry& method, const MethodOptions& option
 void check_folder(const std::string& out) {
   const fs::path folder = fs::path(out).parent_path();
   const std::string name = folder.empty() ? "." : folder.string();
-  if (out == "-" || fs::is_directory(out)) throw option_error("--out", "a file", out);
+  const bool is_other = fs::exists(out) && !fs::is_regular_file(out);  // a folder, a device, a pipe
+  if (out == "-" || is_other) throw option_error("--out", "a file", out);
   if (::access(name.c_str(), W_OK) != 0 || !fs::is_directory(name)) {
     throw Error(ErrorCode::io, out + ": cannot be written: no folder, or one that is protected");
   }
@@ -133,7 +135,13 @@ class Listener final : public BakeListener {
     bar_.update(static_cast<std::uint64_t>(share * whole));
     return !interrupted();
   }
-  void checkpoint(std::span<const std::byte> state) override { unfinished_.write(state); }
+  void checkpoint(std::span<const std::byte> state) override {
+    try {
+      unfinished_.write(state);
+    } catch (const Error& error) {
+      throw Stopped{std::string("the work so far is lost: ") + error.what()};
+    }
+  }
 
  private:
   static constexpr std::uint64_t whole = 1000;
@@ -161,16 +169,31 @@ void check_command_line(const BakeOptions& options) {
              std::vector<NamedFile>{{"--out", options.out}, {"--out", options.out + ".part"}});
 }
 
+/// The scene's, and those moving ones that only the frames add.
+std::vector<Object> objects_of(const PreparedWorld& world) {
+  std::vector<Object> objects;
+  std::set<ObjectId> known;
+  for (const SceneObject& object : world.scene.objects) {
+    objects.push_back(object.object);
+    known.insert(object.object.id);
+  }
+  if (!world.survey) return objects;
+  for (const Object& object : world.survey->objects) {
+    if (!object.is_static && known.insert(object.id).second) objects.push_back(object);
+  }
+  return objects;
+}
+
 int bake(const BakeOptions& options) {
   check_command_line(options);
   const MethodEntry& method = find_baker(options.world);
   const BakeSettings settings = choose_settings(options, method);
-  const PreparedWorld world = prepare_world(options.world);
+  // Frames are read for who moves in them.
+  const PreparedWorld world = prepare_world(options.world, !options.world.frames.empty());
   MethodOptions chosen = method_options(options.world, world);
   chosen.bake = settings;
   (void)make_method(options.world.method, chosen);  // refuses the wrong dimension
-  std::vector<Object> objects;
-  for (const SceneObject& object : world.scene.objects) objects.push_back(object.object);
+  const std::vector<Object> objects = objects_of(world);
   const BakedHead head{std::string(method.info.name), method.baking.version, static_world_hash(objects)};
   const Unfinished unfinished(options.out + ".part", head, settings_text(method, chosen));
   const std::vector<std::byte> state = unfinished.read();

@@ -16,6 +16,7 @@ using Action = std::function<int()>;
 void add_run_command(CLI::App& app, Action& action);
 void add_check_command(CLI::App& app, Action& action);
 void add_info_command(CLI::App& app, Action& action);
+void add_explain_command(CLI::App& app, Action& action);
 void add_make_command(CLI::App& app, Action& action);
 void add_import_command(CLI::App& app, Action& action);
 void add_methods_command(CLI::App& app, Action& action);

@@ -68,6 +68,7 @@ int run_program(int argc, const char* const* argv) {
   add_run_command(app, action);
   add_check_command(app, action);
   add_info_command(app, action);
+  add_explain_command(app, action);
   add_make_command(app, action);
   add_import_command(app, action);
   add_methods_command(app, action);
@@ -81,7 +82,7 @@ int run_program(int argc, const char* const* argv) {
     return refuse(e.what());
   }
   if (!action)
-    return refuse("a command is missing: run, check, info, make, import, methods, bake or bench (see gridcull --help)");
+    return refuse("a command is missing: run, check, info, explain, make, import, methods, bake or bench (see gridcull --help)");
   return perform(action);
 }
 
