@@ -53,7 +53,16 @@ struct BenchOptions {
   std::string out{};
   bool stability = false;
   std::string figure{};
+  std::vector<const CLI::Option*> settings_of_runs{};  ///< what not every kind of bench has a use for
 };
+
+/// Options that would be ignored are mistakes. `used`: those that are not.
+void refuse_others(const BenchOptions& o, const std::string& kind, const std::set<std::string>& used) {
+  for (const CLI::Option* option : o.settings_of_runs) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && !used.contains(name)) throw Error(ErrorCode::usage, kind + " has no use for " + name);
+  }
+}
 
 void refuse_scenes(const BenchOptions& o) {
   if (!o.scenes.empty()) throw Error(ErrorCode::usage, "--figure: " + o.figure + " excludes --scenes, it has its own");
@@ -67,6 +76,12 @@ void take_figure(BenchOptions& o) {
   }
   const FigurePlan plan = figure_plan(o.figure);
   if (!plan.more_scenes) refuse_scenes(o);
+  std::set<std::string> used{"--threads", "--resolutions", "--occluders",  "--bounds",
+                             "--rays",    "--seconds",     "--max-memory", "--repeats"};
+  if (plan.methods.empty()) used.insert("--methods");
+  if (plan.cells.empty()) used.insert("--cells");
+  if (plan.more_scenes) used.insert({"--baked", "--bake"});
+  refuse_others(o, "--figure " + o.figure, used);
   o.scenes.insert(o.scenes.begin(), plan.scenes.begin(), plan.scenes.end());
   if (!plan.methods.empty()) o.choice.methods = plan.methods;
   if (!plan.cells.empty()) o.choice.cells = plan.cells;
@@ -204,11 +219,13 @@ int bench_tbv(const BenchOptions& options) {
 int bench(BenchOptions options) {
   if (options.figure == tbv_figure) {
     refuse_scenes(options);
+    refuse_others(options, "--figure " + options.figure, {"--repeats"});
     return bench_tbv(options);
   }
   take_figure(options);
   check_choice(options);
   if (options.stability) {
+    refuse_others(options, "--stability", {"--methods", "--repeats"});
     return run_stability_bench(options.choice.methods, {options.settings.repeats, stability_rays}, options.out);
   }
   std::optional<BenchOutput> output;
@@ -287,6 +304,10 @@ void add_options(CLI::App& command, BenchOptions& o) {
       ->type_name("FILE,...");
   command.add_flag("--bake", o.choice.bake,
                    "first bake what methods work out in advance, on all cores; seconds and bytes go into the table");
+  for (const char* name : {"--methods", "--threads", "--resolutions", "--cells", "--occluders", "--bounds", "--repeats",
+                           "--frames", "--judge", "--rays", "--seconds", "--max-memory", "--baked", "--bake"}) {
+    o.settings_of_runs.push_back(command.get_option(name));
+  }
   add_text(command, "--out", o.out, "a folder", "folder for bench.csv and the charts; without it only the tables")
       .type_name("DIR");
 }

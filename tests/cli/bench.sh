@@ -113,6 +113,9 @@ refused "a figure that nobody drew" "expected batagelo-5, speed-accuracy or tbv-
 refused "a figure and scenes" "excludes" bench --figure batagelo-5 --scenes discs:50
 refused "the volumes and scenes" "excludes" bench --figure tbv-upkeep --scenes discs:50
 refused "a figure of no repeats" "repeats" bench --figure tbv-upkeep --repeats 0
+refused "a figure with methods of its own" "no use for --methods" bench --figure batagelo-5 --methods voxel
+refused "volumes and baked files" "no use for --bake" bench --figure tbv-upkeep --bake
+refused "stability and resolutions" "no use for --resolutions" bench --stability --resolutions 64
 refused "discs that stand still" "moving" bench --scenes discs:50:moving=3
 refused "stability of what is no method" "found clairvoyance" bench --stability --methods clairvoyance
 refused "stability and scenes" "excludes" bench --stability --scenes discs:50
