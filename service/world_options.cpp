@@ -106,8 +106,8 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
            "512, 256 all round with a range); depth-rays: WxH rays, each 1 .. 8192 (default 128x72)")
       .type_name("R|WxH");
   add_text(command, "--baked", options.baked, "a file name",
-           "what gridcull bake wrote for this method and scene; without it the method "
-           "bakes a little at the first frame")
+           "what gridcull bake wrote for this method and scene; without it five-d-tree bakes a little at the first "
+           "frame, and extended-projections looks out of cells as viewers come to them")
       .type_name("FILE");
   add_positive(command, "--view-box", options.view_box, {1e9, "0 or more metres, at most 1e9", true},
                "five-d-tree: edge of the box about a viewpoint that its queries take (default 0)")

@@ -201,6 +201,29 @@ TEST_CASE("baked sets: written, read, described, and refused when altered") {
   }
 }
 
+TEST_CASE("sets that nobody baked are refused, whatever their checksum") {
+  const auto read = [](const extended::RootCells& root) {
+    extended::CellLattice lattice;
+    lattice.count = {1, 1, 1};
+    extended::MotionRegions regions;
+    regions.count = {2, 1, 1};
+    ByteWriter out;
+    extended::BakedCells(lattice, regions, 3, std::span(&root, 1)).write(out);
+    const std::vector<std::byte> bytes = out.take();
+    ByteReader in(bytes, "test");
+    const extended::BakedCells cells(in);
+    extended::LeafSet set;
+    cells.decode(0, set);
+    return set.visible;
+  };
+  extended::RootCells root{{extended::NodeKind::leaf}, {{{0, 2, 4}, {1, 2}}}};
+  CHECK(read(root) == std::vector<std::uint32_t>{0, 2, 4});
+  root.leaves[0].touching = {3};  // a region, which no viewer is inside of
+  CHECK_THROWS_WITH_AS(read(root), doctest::Contains("more than the world"), Error);
+  root.leaves[0] = {{0, 5}, {}};
+  CHECK_THROWS_AS(read(root), Error);
+}
+
 TEST_CASE("baked answers hold whom the exact reference sees, and hide somebody") {
   if (!ExactRays::available()) {
     MESSAGE("skipped: built without Embree");

@@ -55,6 +55,7 @@ unfinished() {  # unfinished NAME WORD ARGUMENTS...: FILE.part stays as it is
   rm -f part.baked.part
 }
 unfinished "unfinished with other options" "other options" "${quick[@]}" town/scene.json
+unfinished "unfinished with another cell size" "other options" "${slow[@]}" --cell 3.5
 unfinished "unfinished of another world" "another world" "${quick[@]}" other/scene.json
 head -c 200 slow.baked.part >cut.part
 cp cut.part slow.baked.part
