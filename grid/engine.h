@@ -20,9 +20,12 @@ enum class Hiding {
 };
 
 enum class TbvMode {
-  off,    ///< every moving object is read and discretised in every frame
-  solid,  ///< temporal bounding volumes as filled discs or balls: the safe default
-  hollow  ///< outlines only (2D circle, 3D cube faces), where that is provably safe; solid elsewhere
+  off,     ///< every moving object is read and discretised in every frame
+  solid,   ///< temporal bounding volumes as filled discs or balls: the safe default
+  hollow,  ///< outlines only (2D circle, 3D cube faces), where that is provably safe; solid elsewhere
+  /// solid, but for `silhouette` in 3D while there is no source: told of every move it gains nothing from them, since
+  /// to see that a ball stays in its node of the index costs no more than to see that it stays in its volume.
+  automatic
 };
 
 struct GridOptions {

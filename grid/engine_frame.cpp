@@ -2,6 +2,7 @@
 // own answers, and what they reveal is merged in the order of the views.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <tbb/info.h>
@@ -32,27 +33,23 @@ void GridEngine::State::check(double time, std::span<const View> views) const {
 
 // A hidden object that moved farther than its max_speed allows since the last frame may be anywhere: it is
 // discretised again. Pushed moves are judged here, since only now the frame's time is known; a pull source
-// announces them by the same rule. Pushed positions inside the volume and the speed cost this compare only.
+// announces them by the same rule. Of those who are in nobody's volume one compare says that none jumped; the quotients
+// of pushed_needs are right to 2^-50, far within the rule's 1e-9.
 void GridEngine::State::settle_jumps(double time) {
-  const double step = started ? time - before : 0.0;
-  for (const Pushed& p : pushed) {
-    ObjectState& state = world.objects[p.slot];
-    const Vec3 way = state.pose.position - p.from;
-    const double most = state.max_speed * step;
-    // The rule compares lengths; squares, which need no root, settle all that are clearly shorter.
-    const bool too_far = started && glm::dot(way, way) >= most * most && glm::length(way) > most * (1.0 + 1e-9);
-    bool escaped = false;
-    // A volume past its term is renewed in expire(): leaving it is no jump (the pull rule has none there either).
-    if (state.place == Place::hidden && expiries.expiry(p.slot) >= time) {
-      const TbvMatrix::Ball ball = volume(p.slot);
-      escaped = glm::length(state.pose.position - ball.centre) + state.reach > ball.radius * (1.0 + 1e-12);
-    }
-    if ((too_far || escaped) && !state.jumped) {
+  const double step = started ? time - before : std::numeric_limits<double>::infinity();
+  const auto judge = [&](const std::vector<Pushed>& list) {
+    for (const Pushed& p : list) {
+      ObjectState& state = world.objects[p.slot];
+      if (state.jumped || !jumped_since(p, step, time)) continue;
       state.jumped = true;
       jumped.push_back(p.slot);
     }
-  }
+  };
+  if (!(pushed_needs <= step * step)) judge(pushed);
+  judge(pushed_hidden);
+  pushed_needs = 0.0;
   pushed.clear();
+  pushed_hidden.clear();
   for (const Slot slot : jumped) {
     ObjectState& state = world.objects[slot];
     state.jumped = false;
@@ -60,6 +57,18 @@ void GridEngine::State::settle_jumps(double time) {
     if (state.place == Place::hidden) activate(slot);
   }
   jumped.clear();
+}
+
+bool GridEngine::State::jumped_since(const Pushed& push, double step, double time) const {
+  const ObjectState& state = world.objects[push.slot];
+  const Vec3 way = state.pose.position - push.from;
+  const double most = state.max_speed * step;
+  // The rule compares lengths; squares, which need no root, settle all that are clearly shorter.
+  if (started && glm::dot(way, way) >= most * most && glm::length(way) > most * (1.0 + 1e-9)) return true;
+  // A volume past its term is renewed in expire(): leaving it is no jump (the pull rule has none there either).
+  if (state.place != Place::hidden || expiries.expiry(push.slot) < time) return false;
+  const TbvMatrix::Ball ball = volume(push.slot);
+  return glm::length(state.pose.position - ball.centre) + state.reach > ball.radius * (1.0 + 1e-12);
 }
 
 // Criterion 2 of the paper: hidden and expired, so a new term. All poses are read before any volume is given up:
@@ -86,7 +95,7 @@ void GridEngine::State::discretise() {
   for (const Slot slot : waiting) {
     ObjectState& state = world.objects[slot];
     state.place = Place::active;
-    state.stale = true;
+    mark_stale(slot);
     if (state.is_static) {
       cover(slot);
     } else {
@@ -94,10 +103,17 @@ void GridEngine::State::discretise() {
     }
   }
   waiting.clear();
-  if (world.source == nullptr) {
+  if (world.source != nullptr) {
+    read_active();
+  } else if (follows_at_once()) {
+    follow_stale();
+  } else {
     follow_pushed();
-    return;
   }
+  stale.clear();
+}
+
+void GridEngine::State::read_active() {
   for (const Slot slot : active) {
     ObjectState& state = world.objects[slot];
     const Pose old = state.pose;
@@ -111,18 +127,22 @@ void GridEngine::State::discretise() {
   }
 }
 
-// move() has written the poses and said who moved. Most of them a little: then a silhouette's ball just moves along.
+// move() has written the poses and said who moved.
 void GridEngine::State::follow_pushed() {
-  SilhouetteWorld* const balls = options.dimension == 3 ? world.silhouettes.get() : nullptr;
   for (const Slot slot : active) {
     ObjectState& state = world.objects[slot];
     world.note_read(state);
-    if (!state.stale) continue;
-    if (balls != nullptr && balls->follow(slot, state.pose)) {
-      state.stale = false;
-    } else {
-      cover(slot);
-    }
+    if (state.stale) cover(slot);
+  }
+}
+
+// The same, where move() has moved the balls of most already. All count as read; nobody was before: only
+// hidden objects are.
+void GridEngine::State::follow_stale() {
+  world.positions_read += active.size();
+  for (const Slot slot : stale) {
+    const ObjectState& state = world.objects[slot];
+    if (state.stale && state.place == Place::active) cover(slot);
   }
 }
 
@@ -169,7 +189,7 @@ void GridEngine::State::answer_views(std::span<const View> views, Answers& out) 
 
 void GridEngine::State::merge(std::size_t views) {
   for (std::size_t i = 0; i < views; ++i) {
-    if (options.tbv != TbvMode::off) {
+    if (hides()) {
       for (const Slot slot : results[i].seen) seen[slot] = 1;
     }
     stats.traverse_us += results[i].traverse_us;
@@ -193,7 +213,7 @@ void GridEngine::State::merge(std::size_t views) {
 
 // Criterion 1 of the paper: not in anybody's PVS and without a volume, so it gets one.
 void GridEngine::State::hide_unseen() {
-  if (options.tbv == TbvMode::off) return;
+  if (!hides()) return;
   hiding.clear();
   std::size_t kept = 0;
   for (const Slot slot : active) {

@@ -1,6 +1,7 @@
 // Objects coming, going and moving between frames, and their way between the matrices I and T.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "gridcull/core/error.h"
@@ -11,6 +12,8 @@
 
 namespace gridcull {
 namespace {
+
+constexpr Slot ahead = 6;
 
 Lattice make_lattice(const GridOptions& o) { return {o.dimension, o.bounds, o.cell, o.max_memory}; }
 
@@ -69,6 +72,7 @@ void GridEngine::State::add(const Object& object) {
   }
   expiries.reserve(slots);
   seen.resize(slots, 0);
+  if (follows_at_once() && slots > stale.capacity()) stale.reserve(slots + slots / 8);
   seen[slot] = 0;
 }
 
@@ -85,28 +89,56 @@ void GridEngine::State::remove(Slot slot) {
   if (place == Place::active && !state.is_static) unlist_active(slot);
   if (state.jumped) drop(jumped);
   if (state.pushed_frame == static_cast<std::uint32_t>(world.frame + 1)) {
-    std::erase_if(pushed, [&](const Pushed& p) { return p.slot == slot; });
+    for (auto* list : {&pushed, &pushed_hidden}) {
+      std::erase_if(*list, [&](const Pushed& p) { return p.slot == slot; });
+    }
   }
   if (world.silhouettes) world.silhouettes->remove(slot);
   world.objects.remove(slot);
 }
 
-void GridEngine::State::move(Slot slot, const Pose& pose) {
+// Whether it is a jump is judged when the frame's time is known. Until then: from where, and how long the farthest of
+// these ways takes.
+void GridEngine::State::note_pushed(Slot slot, const Vec3& to) {
   ObjectState& state = world.objects[slot];
   // A moving object that waits was added since the last frame: it has no place there to have jumped from.
-  const bool has_past = state.moves() && state.place != Place::waiting;
+  if (!state.moves() || state.place == Place::waiting || state.max_speed < 0.0) return;
   const auto next_frame = static_cast<std::uint32_t>(world.frame + 1);
-  if (has_past && state.max_speed >= 0.0 && state.pushed_frame != next_frame) {
-    state.pushed_frame = next_frame;
-    pushed.push_back({slot, state.pose.position});
+  if (state.pushed_frame == next_frame) {
+    pushed_needs = std::numeric_limits<double>::infinity();  // two ways: look at their sum
+    return;
   }
+  state.pushed_frame = next_frame;
+  (state.place == Place::hidden ? pushed_hidden : pushed).push_back({slot, state.pose.position});
+  const Vec3 way = to - state.pose.position;
+  pushed_needs = std::max(pushed_needs, glm::dot(way, way) / (state.max_speed * state.max_speed));
+}
+
+void GridEngine::State::move(Slot slot, const Pose& pose) {
+  ObjectState& state = world.objects[slot];
+  // Who tells of many moves mostly does so in the order in which the objects came.
+  if (follows_at_once() && slot + ahead < world.objects.size()) {
+    world.objects.prefetch(slot + ahead);
+    world.silhouettes->index.prefetch(slot + ahead);
+  }
+  note_pushed(slot, pose.position);
   state.pose = pose;
   if (state.place == Place::hidden) return;  // settled when the frame's time is known
-  state.stale = true;
+  if (follows_at_once() && state.place == Place::active && !state.stale &&
+      world.silhouettes->follow_own(slot, state.pose)) {
+    return;
+  }
+  mark_stale(slot);
   if (state.is_static && state.place == Place::active) {
     state.place = Place::waiting;
     waiting.push_back(slot);
   }
+}
+
+void GridEngine::State::mark_stale(Slot slot) {
+  ObjectState& state = world.objects[slot];
+  if (follows_at_once() && !state.stale) stale.push_back(slot);
+  state.stale = true;
 }
 
 void GridEngine::State::set_outside(Slot slot, bool outside) {
@@ -154,7 +186,8 @@ void GridEngine::State::activate(Slot slot) {
   if (state.place == Place::hidden) take_volume(slot);
   set_outside(slot, false);
   state.place = Place::active;
-  state.stale = true;
+  if (world.silhouettes) world.silhouettes->set_hidden(slot, false);
+  mark_stale(slot);
   list_active(slot);
 }
 
@@ -174,6 +207,7 @@ void GridEngine::State::hide(Slot slot) {
   if (!world.silhouettes) leave_grid(slot);
   ObjectState& state = world.objects[slot];
   state.place = Place::hidden;
+  if (world.silhouettes) world.silhouettes->set_hidden(slot, true);
   while (lengthen_term(state)) {
   }
   give_volume(slot);
@@ -235,7 +269,7 @@ void GridEngine::State::place_volume(Slot slot, const TbvMatrix::Ball& ball) {
 
 // Most volumes stay in the same place of T when they expire, which costs little.
 void GridEngine::State::renew_volume(Slot slot) {
-  const bool stays = options.tbv == TbvMode::solid && world.tbv.holds(slot);
+  const bool stays = options.tbv != TbvMode::hollow && world.tbv.holds(slot);
   if (!stays) take_volume(slot);
   lengthen_term(world.objects[slot]);
   if (!stays) return give_volume(slot);

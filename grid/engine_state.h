@@ -19,6 +19,11 @@ namespace gridcull {
 struct GridEngine::State {
   explicit State(const GridOptions& options);
 
+  struct Pushed {
+    Slot slot;
+    Vec3 from;
+  };
+
   // Between frames.
   void add(const Object& object);
   void remove(Slot slot);
@@ -29,12 +34,25 @@ struct GridEngine::State {
   void settle_jumps(double time);
   void expire();
   void discretise();
+  void read_active();
   void follow_pushed();
+  void follow_stale();
   void note_viewers(std::span<const View> views);
   void answer_views(std::span<const View> views, Answers& out);
   void merge(std::size_t views);
   void hide_unseen();
 
+  /// Whether objects that nobody sees get volumes.
+  bool hides() const {
+    if (options.tbv == TbvMode::automatic) return world.source != nullptr || !follows_at_once();
+    return options.tbv != TbvMode::off;
+  }
+  /// A pushed move that leaves its object in its node of the index is done in move() already.
+  bool follows_at_once() const { return world.silhouettes != nullptr && options.dimension == 3; }
+  void note_pushed(Slot slot, const Vec3& to);
+  bool jumped_since(const Pushed& push, double step, double time) const;
+  /// The object is to be covered at the start of the next frame.
+  void mark_stale(Slot slot);
   /// Discretises the object in O and I at its present pose.
   void cover(Slot slot);
   void activate(Slot slot);
@@ -55,11 +73,6 @@ struct GridEngine::State {
   void set_outside(Slot slot, bool outside);
   Slot slot_of(ObjectId object) const;
 
-  struct Pushed {
-    Slot slot;
-    Vec3 from;
-  };
-
   GridOptions options;
   GridWorld world;
   ExpiryQueue expiries;
@@ -74,7 +87,10 @@ struct GridEngine::State {
   std::uint64_t volumes = 0;  // hidden objects
   std::vector<Slot> active;   // moving objects in O and I
   std::vector<Slot> waiting;  // added, moved by hand, or jumped: to be discretised at the next frame
-  std::vector<Pushed> pushed;
+  std::vector<Slot> stale;    // follows_at_once(): marked as stale; whoever still is will be covered
+  std::vector<Pushed> pushed, pushed_hidden;
+  /// No object of `pushed` needs longer for its way, at its max_speed; seconds, squared, rounded.
+  double pushed_needs = 0.0;
   std::vector<Slot> jumped;
   std::vector<std::uint8_t> seen;  // per slot: in somebody's PVS in this frame
   std::vector<Slot> expired;

@@ -71,6 +71,9 @@ class LooseIndex {
   bool holds(Slot slot) const { return entries_[slot].level != nowhere; }
   const LooseBall& ball(Slot slot) const { return entries_[slot].ball; }
   std::uint64_t size() const { return size_; }
+  /// Eight bits beside the ball for the caller's own use, 0 at first; nothing here reads or changes them.
+  std::uint8_t& marks(Slot slot) { return entries_[slot].marks; }
+  std::uint8_t marks(Slot slot) const { return entries_[slot].marks; }
 
   int dimension() const { return dimension_; }
   /// Nodes of the coarsest level: at most two along each axis.
@@ -97,6 +100,10 @@ class LooseIndex {
   const Vec3& corner() const { return box_.min; }
   double margin() const { return margin_; }
   Slot next(Slot slot) const { return entries_[slot].after; }
+  /// Hints that a walk will come to the entry soon; `none` is fine.
+  void prefetch(Slot slot) const {
+    if (slot != none) __builtin_prefetch(&entries_[slot]);
+  }
   /// Box that holds the balls of everything in the node and below (grown by half a side and the rounding).
   Bounds loose_box(const NodeId& id) const;
 
@@ -105,13 +112,16 @@ class LooseIndex {
 
  private:
   static constexpr std::uint8_t nowhere = 255;
-  struct Entry {
+  /// One cache line, all that a walk wants to know of most objects.
+  struct alignas(64) Entry {
     LooseBall ball{};
     std::uint32_t before = none, after = none;
     std::uint32_t node = none;         // index in its level
     std::int32_t x = 0, y = 0, z = 0;  // the node's coordinates
     std::uint8_t level = nowhere;
+    std::uint8_t marks = 0;
   };
+  static_assert(sizeof(Entry) == 64);
   struct Level {
     std::int32_t nx, ny, nz;
     double side;

@@ -20,6 +20,8 @@ LooseBall ball_around(const Shape& shape) {
   return ball;
 }
 
+std::array<double, 3> key_of(const Vec3& size) { return {size.x, size.y, size.z}; }
+
 /// The box around these points, or as good as around them.
 void set_box(SilhouetteWorld::Solid& solid, const std::vector<Vec3>& points, double reach) {
   Bounds box;
@@ -51,6 +53,18 @@ std::unique_ptr<SilhouetteWorld::Solid> SilhouetteWorld::make_solid(const Shape&
   return solid;
 }
 
+std::shared_ptr<const SilhouetteWorld::Solid> SilhouetteWorld::solid_of(const Shape& shape) {
+  const auto* box = std::get_if<Cuboid>(&shape);
+  if (box == nullptr) return make_solid(shape);
+  std::weak_ptr<const Solid>& kept = boxes_[key_of(box->size)];
+  if (std::shared_ptr<const Solid> solid = kept.lock()) return solid;
+  std::unique_ptr<Solid> solid = make_solid(shape);
+  solid->size = box->size;
+  std::shared_ptr<const Solid> shared = std::move(solid);
+  kept = shared;
+  return shared;
+}
+
 void SilhouetteWorld::reserve(std::size_t slots) {
   index.reserve(slots);
   if (index.dimension() == 2) outlines.reserve(slots);
@@ -64,17 +78,20 @@ void SilhouetteWorld::add(Slot slot, const Shape& shape) {
   const double reach = reach_of(shape);
   body.solid.reset();
   if (index.dimension() == 2) outlines.add(slot, shape);
-  if (dimension_of(shape) == 3) body.solid = make_solid(shape);
+  if (dimension_of(shape) == 3) body.solid = solid_of(shape);
   body.centred = body.ball.radius > 0.75 * reach;
   if (body.centred)
     body.ball = {{}, reach};
   else
     body.ball.radius *= 1.0 + 1e-8;
+  index.marks(slot) = static_cast<std::uint8_t>((body.centred ? is_centred : 0) | (body.solid ? 0 : is_ball));
 }
 
 void SilhouetteWorld::remove(Slot slot) {
   index.erase(slot);
   if (index.dimension() == 2) outlines.remove(slot);
+  const std::shared_ptr<const Solid>& solid = bodies_[slot].solid;
+  if (solid.use_count() == 1) boxes_.erase(key_of(solid->size));
   bodies_[slot] = {};
 }
 
@@ -93,7 +110,9 @@ bool SilhouetteWorld::near_seen(const LooseBall&, std::uint64_t) const { return 
 std::uint64_t SilhouetteWorld::shape_bytes() const {
   std::uint64_t bytes = outlines.bytes() + bodies_.capacity() * sizeof(Body);
   for (const Body& body : bodies_) {
-    if (body.solid) bytes += sizeof(Solid) + body.solid->pieces.bytes() + body.solid->outer.bytes();
+    if (!body.solid) continue;
+    const std::uint64_t all = sizeof(Solid) + body.solid->pieces.bytes() + body.solid->outer.bytes();
+    bytes += all / static_cast<std::uint64_t>(body.solid.use_count());
   }
   return bytes;
 }

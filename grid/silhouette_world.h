@@ -2,7 +2,9 @@
 // and what it is tested with. Frozen while views are answered, but for the notes of what was seen.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -42,6 +44,22 @@ class SilhouetteWorld {
 
   /// enter() for an object that moved a little: false, and nothing done, when more is to do than to move its ball.
   bool follow(Slot slot, const Pose& pose) { return index.follow(slot, ball_at(slot, pose)); }
+  /// The same where the index is known to have the object's own ball, and not a volume.
+  bool follow_own(Slot slot, const Pose& pose) {
+    if ((index.marks(slot) & is_centred) == 0) return follow(slot, pose);
+    return index.follow(slot, {pose.position, index.ball(slot).radius});
+  }
+
+  /// What the walk asks of every object that it meets, as LooseIndex::marks().
+  enum Mark : std::uint8_t {
+    is_centred = 1,  ///< its ball's centre is its position
+    is_ball = 2,     ///< 3D: tested as the ball of ball_at(), without a Solid
+    is_hidden = 4    ///< the index has its temporal bounding volume instead of its ball
+  };
+  void set_hidden(Slot slot, bool on) {
+    std::uint8_t& marks = index.marks(slot);
+    marks = static_cast<std::uint8_t>(on ? marks | is_hidden : marks & ~is_hidden);
+  }
 
   /// Whether somebody looked into a node that the ball reaches in this or the last frame.
   bool near_seen(const LooseBall& ball, std::uint64_t frame) const;
@@ -51,9 +69,11 @@ class SilhouetteWorld {
     OccluderPieces pieces;  ///< none of balls
     ConvexPiece outer;
     Vec3 box_centre{0.0}, box_half{0.0};  ///< box around `outer`, local axes; grown by 1e-8 for its roundings
+    Vec3 size{0.0};                       ///< of a box: all boxes of that size share this
     LooseBall ball{};                     ///< radius above 0: tested as this ball, local axes, instead of all that
   };
   const Solid* solid(Slot slot) const { return bodies_[slot].solid.get(); }
+  void prefetch_solid(Slot slot) const { __builtin_prefetch(&bodies_[slot]); }
 
   /// What shapes take; the index says its own.
   std::uint64_t shape_bytes() const;
@@ -68,14 +88,16 @@ class SilhouetteWorld {
 
  private:
   std::unique_ptr<Solid> make_solid(const Shape& shape) const;
+  std::shared_ptr<const Solid> solid_of(const Shape& shape);
 
   /// Smallest ball we know of about the shape, local axes. About the origin it holds at any orientation.
   struct Body {
     LooseBall ball{};
     bool centred = true;
-    std::unique_ptr<Solid> solid{};
+    std::shared_ptr<const Solid> solid{};  ///< of boxes one for all of a size: a crowd of cars stays in the cache
   };
   std::vector<Body> bodies_;
+  std::map<std::array<double, 3>, std::weak_ptr<const Solid>> boxes_;  // by size
   std::optional<BoundKind> bound_;
 };
 

@@ -20,7 +20,8 @@ TbvMode tbv_mode(const std::string& name) {
   if (name == "off") return TbvMode::off;
   if (name == "solid") return TbvMode::solid;
   if (name == "hollow") return TbvMode::hollow;
-  throw Error(ErrorCode::usage, "--tbv: expected off, solid or hollow, found " + name);
+  if (name == "auto") return TbvMode::automatic;
+  throw Error(ErrorCode::usage, "--tbv: expected off, solid, hollow or auto, found " + name);
 }
 
 std::unique_ptr<Culler> make_engine(const MethodOptions& o, Hiding hiding) {
@@ -90,11 +91,12 @@ Baking extended_baking() {
 
 std::span<const MethodEntry> method_catalog() {
   static const std::array entries{
-      MethodEntry{grid_engine_info(Hiding::voxel), "--cell C, --tbv off|solid|hollow, --threads N, --max-memory BYTES",
-                  &make_voxel},
-      MethodEntry{grid_engine_info(Hiding::silhouette),
-                  "--resolution R (3D), --bounds KIND (3D), --cell C, --tbv off|solid, --threads N, --max-memory BYTES",
-                  &make_silhouette},
+      MethodEntry{grid_engine_info(Hiding::voxel),
+                  "--cell C, --tbv off|solid|hollow|auto, --threads N, --max-memory BYTES", &make_voxel},
+      MethodEntry{
+          grid_engine_info(Hiding::silhouette),
+          "--resolution R (3D), --bounds KIND (3D), --cell C, --tbv off|solid|auto, --threads N, --max-memory BYTES",
+          &make_silhouette},
       MethodEntry{frustum_culler_info(), "--bounds KIND", &make_frustum},
       MethodEntry{shadow_frusta_info(), "--occluders N (default 8), --bounds KIND", &make_shadows},
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},

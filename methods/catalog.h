@@ -21,9 +21,9 @@ namespace gridcull {
 struct MethodOptions {
   int dimension = 2;
   Bounds bounds{};
-  double cell = 1.0;          ///< metres
-  std::string tbv = "solid";  ///< off, solid, hollow
-  int threads = 1;            ///< 1 .. 256
+  double cell = 1.0;         ///< metres
+  std::string tbv = "auto";  ///< off, solid, hollow, auto (TbvMode)
+  int threads = 1;           ///< 1 .. 256
   std::uint64_t max_memory = std::uint64_t{4} << 30;
   int resolution = 0;                   ///< pixels along a cube face's edge, 1 .. 8192; 0: the method's default
   int rays_width = 0, rays_height = 0;  ///< rays of a picture, 1 .. 8192 each; 0: the method's default

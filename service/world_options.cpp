@@ -19,8 +19,8 @@ namespace gridcull {
 namespace {
 
 void check_options(const WorldOptions& options) {
-  if (options.tbv != "off" && options.tbv != "solid" && options.tbv != "hollow") {
-    throw option_error("--tbv", "off, solid or hollow", options.tbv);
+  if (options.tbv != "off" && options.tbv != "solid" && options.tbv != "hollow" && options.tbv != "auto") {
+    throw option_error("--tbv", "off, solid, hollow or auto", options.tbv);
   }
   if (!options.resolution.empty()) (void)parse_resolution(options.resolution);
   if (!options.bounds.empty()) (void)parse_bounds(options.bounds);
@@ -97,9 +97,9 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
       .type_name("NAME");
   add_whole(command, "--threads", options.threads, {1, 256, "1 .. 256"},
             "1 .. 256 (default 1); answers do not depend on it");
-  add_text(command, "--tbv", options.tbv, "off, solid or hollow",
-           "temporal bounding volumes of hidden movers: off, solid or hollow (default solid); silhouette takes "
-           "hollow as solid")
+  add_text(command, "--tbv", options.tbv, "off, solid, hollow or auto",
+           "temporal bounding volumes of hidden movers: off, solid, hollow, or auto (default): solid, but off where "
+           "silhouette in 3D is told of every move; silhouette takes hollow as solid")
       .type_name("KIND");
   add_text(command, "--resolution", options.resolution, "R or WxH",
            "silhouette in 3D: R pixels along a cube face's edge, 8 .. 8192, finer is tighter and slower (default "
