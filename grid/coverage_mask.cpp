@@ -21,17 +21,24 @@
 // Around (test). Each edge's line is pushed outward until it has every p_k on its inner side, so C lies inside it,
 // again whatever the order. A row's span is bounded by the lines where they bound it least, and by C's extent.
 //
+// Rectangles. A box in the face's axes that holds the shape, with all errors, has its image within [low, high] / depth
+// along each axis; margin_x and margin_y pay for the rounding of quotients of at most the tangent. A ball lies in the
+// box of its radius about its centre; turning the centre into the face's axes moves it by less than 2^-48 of its
+// length, and ball_margin() is 2^-34 of it. Where all columns asked for are covered over a strip's eight rows, so is
+// each row.
+//
 // Pixels outside the view: a ray strictly beyond one side plane of the face by more than its error (`slack`)
 // for all rays of a cone puts the whole cone beyond it.
 #include "gridcull/grid/coverage_mask.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-
-#include <glm/common.hpp>
 
 #include "gridcull/grid/mask_ball.h"
 #include "gridcull/grid/mask_clip.h"
+#include "gridcull/grid/mask_cube.h"
+#include "gridcull/grid/mask_rectangle.h"
 
 namespace gridcull {
 namespace {
@@ -46,52 +53,6 @@ double ball_margin(const Vec3& c, double radius) {
 }
 
 double square(const Vec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
-
-/// Pixel of a coordinate, -1 below 0, at most `last`.
-int pixel_of(double x, int last) { return x < 0.0 ? -1 : x >= last ? last : static_cast<int>(x); }
-
-/// Pixels [from, to) for u in [low, high] / depth, depth in [near, far] and above 0; false: none.
-bool pixel_range(double low, double high, double near, double far, double tangent, double scale, double margin,
-                 int pixels, int& from, int& to) {
-  if (low > tangent * far || high < -tangent * far) return false;
-  const auto quotient = [&](double u, double depth) { return depth > 0.0 ? u / depth : u < 0.0 ? -tangent : tangent; };
-  const double a = quotient(low, low < 0.0 ? near : far), b = quotient(high, high < 0.0 ? far : near);
-  from = std::max(0, pixel_of((a + tangent) * scale - margin, pixels));
-  to = pixel_of((b + tangent) * scale + margin, pixels - 1) + 1;
-  return from < to;
-}
-
-constexpr int right_of[3] = {1, 0, 0}, up_of[3] = {2, 2, 1};
-
-/// The faces of the cube, a bit each, that rays may reach: a face is left out when all rays lie behind it or beyond one
-/// of its sides even with their errors, so that the cone they span does.
-unsigned cube_faces_near(const Vec3* rays, int count) {
-  Vec3 low = rays[0], high = rays[0];
-  for (int k = 1; k < count; ++k) low = glm::min(low, rays[k]), high = glm::max(high, rays[k]);
-  double slack = 0.0;
-  for (int k = 0; k < 3; ++k) slack = std::max({slack, -low[k], high[k]});
-  slack *= 0x1p-38;
-  unsigned near = 0;
-  for (int face = 0; face < 6; ++face) {
-    const int axis = face / 2, r = right_of[axis], u = up_of[axis];
-    const double depth = (face % 2 == 0 ? high[axis] : -low[axis]) + slack;  // at most
-    const bool reached = depth > 0.0 && low[r] - slack <= depth && low[u] - slack <= depth &&
-                         high[r] + slack >= -depth && high[u] + slack >= -depth;
-    near |= static_cast<unsigned>(reached) << face;
-  }
-  return near;
-}
-
-/// An axis-aligned box on a face of the cube: the rectangle of its image, from intervals. It errs outward only, and
-/// by no more than the box's part beside the viewpoint makes it.
-bool box_on_cube_face(const MaskFace& face, int index, const Vec3& low, const Vec3& high, masking::Rectangle& out) {
-  const int axis = index / 2, r = right_of[axis], u = up_of[axis];
-  const double far = index % 2 == 0 ? high[axis] : -low[axis], near = index % 2 == 0 ? low[axis] : -high[axis];
-  const masking::Window& w = face.window;
-  return far > 0.0 &&
-         pixel_range(low[r], high[r], near, far, face.tangent_x, face.scale_x, w.margin_x, w.width, out.x0, out.x1) &&
-         pixel_range(low[u], high[u], near, far, face.tangent_y, face.scale_y, w.margin_y, w.height, out.y0, out.y1);
-}
 
 }  // namespace
 
@@ -151,17 +112,18 @@ bool CoverageMask::open_cone(const MaskFace& face, const Vec3* rays, int count) 
 }
 
 void CoverageMask::cover_convex(const Vec3* rays, int count) {
-  const unsigned near = face_count_ == 6 ? cube_faces_near(rays, count) : 1;
-  for (int k = 0; k < face_count_; ++k) {
-    MaskFace& f = faces_[static_cast<std::size_t>(k)];
-    if ((near >> k & 1u) != 0 && f.window.open_blocks != 0) cover_cone(f, rays, count);
+  unsigned near = face_count_ == 6 ? masking::cube_faces_near(rays, count) : 1;
+  for (; near != 0; near &= near - 1) {
+    MaskFace& f = faces_[static_cast<std::size_t>(std::countr_zero(near))];
+    if (f.window.open_blocks != 0) cover_cone(f, rays, count);
   }
 }
 
 bool CoverageMask::open_convex(const Vec3* rays, int count) const {
-  const unsigned near = face_count_ == 6 ? cube_faces_near(rays, count) : 1;
-  for (int k = 0; k < face_count_; ++k) {
-    if ((near >> k & 1u) != 0 && face(k).window.open_blocks != 0 && open_cone(face(k), rays, count)) return true;
+  unsigned near = face_count_ == 6 ? masking::cube_faces_near(rays, count) : 1;
+  for (; near != 0; near &= near - 1) {
+    const MaskFace& f = face(std::countr_zero(near));
+    if (f.window.open_blocks != 0 && open_cone(f, rays, count)) return true;
   }
   return false;
 }
@@ -171,8 +133,8 @@ void CoverageMask::cover_ball(const Vec3& centre, double radius) {
   if (!(inner > 0.0 && square(centre) * (1.0 - 0x1p-40) > radius * radius)) return;
   Vec3 rays[masking::cone_rays];
   bool have_rays = false;
-  for (int k = 0; k < face_count_; ++k) {
-    MaskFace& f = faces_[static_cast<std::size_t>(k)];
+  for (unsigned near = faces_near(centre, inner); near != 0; near &= near - 1) {
+    MaskFace& f = faces_[static_cast<std::size_t>(std::countr_zero(near))];
     if (f.window.open_blocks == 0) continue;
     masking::Ellipse ellipse;
     const BallPlace place = masking::place_ball(f, f.to_face(centre), inner, ellipse);
@@ -191,8 +153,8 @@ bool CoverageMask::open_ball(const Vec3& centre, double radius) const {
   if (!(square(centre) * (1.0 - 0x1p-40) > outer * outer)) return !full();
   Vec3 rays[masking::cone_rays];
   bool have_rays = false;
-  for (int k = 0; k < face_count_; ++k) {
-    const MaskFace& f = face(k);
+  for (unsigned near = faces_near(centre, outer); near != 0; near &= near - 1) {
+    const MaskFace& f = face(std::countr_zero(near));
     if (f.window.open_blocks == 0) continue;
     masking::Ellipse ellipse;
     const BallPlace place = masking::place_ball(f, f.to_face(centre), outer, ellipse);
@@ -207,6 +169,27 @@ bool CoverageMask::open_ball(const Vec3& centre, double radius) const {
   return false;
 }
 
+bool CoverageMask::open_about_ball(const Vec3& centre, double radius) const {
+  const double outer = radius + ball_margin(centre, radius);
+  if (!(square(centre) * (1.0 - 0x1p-40) > outer * outer)) return !full();
+  for (unsigned near = faces_near(centre, outer); near != 0; near &= near - 1) {
+    const MaskFace& f = face(std::countr_zero(near));
+    const Vec3 c = f.to_face(centre);
+    masking::Rectangle rectangle;
+    if (f.window.open_blocks != 0 && !masking::beyond_face(f, c, outer) &&
+        masking::rectangle_about(f, c - outer, c + outer, rectangle) &&
+        kernels_->open_rectangle(f.window, rectangle, strips_)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool CoverageMask::beyond_window(const Vec3& centre, double radius) const {
+  const MaskFace& f = face(0);
+  return face_count_ == 1 && masking::beyond_face(f, f.to_face(centre), radius + ball_margin(centre, radius));
+}
+
 bool CoverageMask::open_box(const Vec3& low, const Vec3& high) const {
   double size = 0.0;
   for (int k = 0; k < 3; ++k) size = std::max({size, std::fabs(low[k]), std::fabs(high[k])});
@@ -214,19 +197,36 @@ bool CoverageMask::open_box(const Vec3& low, const Vec3& high) const {
   const Vec3 a = low - margin, b = high + margin;
   if (a.x <= 0.0 && a.y <= 0.0 && a.z <= 0.0 && b.x >= 0.0 && b.y >= 0.0 && b.z >= 0.0) return !full();
   masking::Rectangle rectangle;
-  for (int k = 0; k < face_count_; ++k) {
+  if (face_count_ == 1) {
+    const masking::Window& w = face(0).window;
+    const Projection where = w.open_blocks == 0 ? Projection::outside : kernels_->project_box(w, &a.x, &b.x, rectangle);
+    return where == Projection::crossing ||
+           (where == Projection::inside && kernels_->open_rectangle(w, rectangle, strips_));
+  }
+  for (unsigned near = masking::cube_faces_near_box(a, b); near != 0; near &= near - 1) {
+    const int k = std::countr_zero(near);
     const MaskFace& f = face(k);
-    if (f.window.open_blocks == 0) continue;
-    if (face_count_ == 6) {
-      if (!box_on_cube_face(f, k, a, b, rectangle)) continue;
-    } else {
-      const Projection where = kernels_->project_box(f.window, &a.x, &b.x, rectangle);
-      if (where == Projection::outside) continue;
-      if (where == Projection::crossing) return true;
+    if (f.window.open_blocks != 0 && masking::box_on_cube_face(f, k, a, b, rectangle) &&
+        kernels_->open_rectangle(f.window, rectangle, strips_)) {
+      return true;
     }
-    if (kernels_->open_rectangle(f.window, rectangle, strips_)) return true;
   }
   return false;
+}
+
+bool CoverageMask::open_towards(const Vec3& d) const {
+  const MaskFace& f = face(face_count_ == 6 ? masking::cube_face_of(d) : 0);
+  const masking::Window& w = f.window;
+  const auto form = [&](const double* g) { return (g[0] * d.x + g[1] * d.y) + g[2] * d.z; };
+  const double depth = form(w.form_w);
+  if (w.open_blocks == 0 || !(depth > 0.0)) return false;
+  const double x = form(w.form_x) / depth, y = form(w.form_y) / depth;
+  if (!(x >= 0.0 && y >= 0.0 && x < w.width && y < w.height)) return false;
+  return !f.covered(static_cast<int>(x), static_cast<int>(y));
+}
+
+unsigned CoverageMask::faces_near(const Vec3& centre, double radius) const {
+  return face_count_ == 6 ? masking::cube_faces_near_ball(centre, radius * face(0).norm_x) : 1;
 }
 
 std::uint64_t CoverageMask::bytes() const {

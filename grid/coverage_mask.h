@@ -44,10 +44,18 @@ class CoverageMask {
   // Over-estimates: true when a pixel that the shape may touch is uncovered; false: every part of the shape that
   // lies in the view is hidden.
   bool open_ball(const Vec3& centre, double radius) const;
+  /// The rectangle about its image: cheaper, and open whenever open_ball() is.
+  bool open_about_ball(const Vec3& centre, double radius) const;
+  /// The ball lies wholly outside the one window, if there is one: neither test nor cover would find a pixel.
+  bool beyond_window(const Vec3& centre, double radius) const;
   /// As cover_convex(); in any other order of the rays the answer is still safe.
   bool open_convex(const Vec3* rays, int count) const;
   /// Axis-aligned box, low <= high; the rectangle about its image is tested.
   bool open_box(const Vec3& low, const Vec3& high) const;
+
+  /// Whether the pixel that the direction falls on (rounded: or one beside it) is uncovered; false outside the view.
+  /// No proof of anything: what lies there may be seen.
+  bool open_towards(const Vec3& direction) const;
 
   /// Work: strips of eight pixel rows that covers and tests went through since clear_counts().
   std::uint64_t rows() const { return strips_; }
@@ -60,6 +68,8 @@ class CoverageMask {
   const MaskFace& face(int index) const { return faces_[static_cast<std::size_t>(index)]; }
 
  private:
+  /// Faces that a ball may reach, a bit each.
+  unsigned faces_near(const Vec3& centre, double radius) const;
   void cover_beyond(const ViewVolume& volume);
   void cover_cone(MaskFace& face, const Vec3* rays, int count);
   bool open_cone(const MaskFace& face, const Vec3* rays, int count) const;

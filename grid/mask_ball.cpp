@@ -14,6 +14,8 @@
 
 #include <cmath>
 
+#include "gridcull/grid/mask_rectangle.h"
+
 namespace gridcull::masking {
 namespace {
 
@@ -50,8 +52,7 @@ void rays_round(const Vec3& centre, double radius, double factor, Vec3* out) {
 }  // namespace
 
 BallPlace place_ball(const MaskFace& face, const Vec3& c, double r, Ellipse& out) {
-  if (std::fabs(c.x) - face.tangent_x * c.z > r * face.norm_x) return BallPlace::outside;
-  if (std::fabs(c.y) - face.tangent_y * c.z > r * face.norm_y) return BallPlace::outside;
+  if (beyond_face(face, c, r)) return BallPlace::outside;
   const double near = c.z - r, xx = c.x * c.x, yy = c.y * c.y;
   if (!(near > 0.0 && 64.0 * (near * near) >= xx + yy + c.z * c.z)) return BallPlace::crossing;
   const double z = near * (c.z + r), a = yy + z, b = xx + z, k = xx + a;

@@ -92,20 +92,23 @@ std::size_t block_count(const MaskFace& face) {
 }
 
 std::size_t coarse_count(const MaskFace& face) {
-  return static_cast<std::size_t>(face.window.coarse) * static_cast<std::size_t>(face.window.strips);
+  return static_cast<std::size_t>(face.window.coarse) * static_cast<std::size_t>(face.window.strips) +
+         block_count(face) + 8;
 }
 
-void clear(MaskFace& face, MaskBlock* blocks, std::uint64_t* full) {
+void clear(MaskFace& face, MaskBlock* blocks, std::uint64_t* coarse) {
   masking::Window& w = face.window;
   w.words = blocks->rows;
-  w.full = full;
+  w.full = coarse;
+  w.columns = coarse + w.coarse * w.strips;
   w.open_blocks = w.blocks * w.strips;
   std::memset(blocks, 0, block_count(face) * sizeof(MaskBlock));
-  std::memset(full, 0, coarse_count(face) * sizeof(std::uint64_t));
+  std::memset(coarse, 0, coarse_count(face) * sizeof(std::uint64_t));
   if (const int columns = w.width % 64; columns != 0) {
     for (int strip = 0; strip < w.strips; ++strip) {
       MaskBlock& last = blocks[strip * w.blocks + w.blocks - 1];
       for (std::uint64_t& row : last.rows) row = ~std::uint64_t{0} << columns;
+      w.columns[strip * w.blocks + w.blocks - 1] = ~std::uint64_t{0} << columns;
     }
   }
   for (int row = w.height % 8; row != 0 && row < 8; ++row) {

@@ -43,12 +43,12 @@ void set_cube_face(MaskFace& face, int index, int resolution);
 /// The window that holds a whole view pyramid; false when its tangents exceed 2.5 or there is no pyramid.
 bool set_window(MaskFace& face, const ViewVolume& volume, int resolution);
 
-/// Words of `blocks` and `full` that the face takes.
+/// Blocks, and words of `full` and `columns`, that the face takes.
 std::size_t block_count(const MaskFace& face);
 std::size_t coarse_count(const MaskFace& face);
 
-/// All pixels uncovered, in the memory given.
-void clear(MaskFace& face, MaskBlock* blocks, std::uint64_t* full);
+/// All pixels uncovered, in the memory given: `coarse` for `full` and `columns`.
+void clear(MaskFace& face, MaskBlock* blocks, std::uint64_t* coarse);
 
 /// The part of a cube face that lies wholly beyond a side plane of the view (normal . d < 0), as a polygon;
 /// false when there is none.

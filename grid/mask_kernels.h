@@ -4,7 +4,8 @@
 // Pixels. A face has width x height pixels; pixel (i, j) is the closed square [i, i+1] x [j, j+1]. A direction d
 // (world axes, any length) with form_w . d > 0 falls on (form_x . d, form_y . d) / (form_w . d).
 // Blocks. 64 x 8 pixels, eight words, a word a row, lowest bit leftmost: one cache line. `full` has one bit a
-// block, in words of 64 blocks along a row of blocks. Bits beyond the face's edge are set from the start.
+// block, in words of 64 blocks along a row of blocks; `columns` a word a block, the eight rows and-ed. Bits beyond the
+// face's edge are set from the start.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +29,10 @@ struct Window {
   int blocks = 0;                     ///< along a row
   int strips = 0;                     ///< rows of blocks
   int coarse = 0;                     ///< words of `full` for a strip
-  int open_blocks = 0;                ///< blocks that are not full; 0: words and full may hold anything
+  int open_blocks = 0;                ///< blocks that are not full; 0: the three below may hold anything
   std::uint64_t* words = nullptr;     ///< blocks * strips * 8
   std::uint64_t* full = nullptr;      ///< coarse * strips
+  std::uint64_t* columns = nullptr;   ///< blocks * strips; eight words behind them can be read
 };
 
 /// A convex polygon on a face, its corners in pixels, multiples of 2^-32, within the guards; beyond `count` the

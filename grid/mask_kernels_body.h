@@ -263,10 +263,38 @@ bool open_ellipse(const Window& window, const Ellipse& o, std::uint64_t& strips)
   });
 }
 
+/// The columns of eight blocks, from `block` on, that a rectangle has.
+Words columns_of(const Rectangle& r, int block) {
+  const Lanes left = splat(64.0) * (splat(block) + iota());
+  return span(round_down(splat(r.x0) - left), round_down(splat(r.x1) - left), 0);
+}
+
+/// A strip that the rectangle has some rows of.
+bool open_rows(const Window& window, const Rectangle& r, int strip, int block) {
+  const int top = 8 * strip, from = r.y0 > top ? r.y0 - top : 0, to = r.y1 < top + 8 ? r.y1 - top : 8;
+  for (const int end = (r.x1 - 1) / 64 + 1; block < end; ++block) {
+    const int left = r.x0 - 64 * block, right = 64 * block + 64 - r.x1;
+    const std::uint64_t asked =
+        (~std::uint64_t{0} << (left > 0 ? left : 0)) & (~std::uint64_t{0} >> (right > 0 ? right : 0));
+    const std::uint64_t* const words = window.words + 8 * (strip * window.blocks + block);
+    if (any_beyond(in_rows(asked, from, to), load(words))) return true;
+  }
+  return false;
+}
+
+// Eight blocks of a strip at a time: mostly their columns are covered over all eight rows wherever it is asked.
 bool open_rectangle(const Window& window, const Rectangle& r, std::uint64_t& strips) {
-  const Extent e{r.x0, r.x1, r.y0, r.y1};
-  const Ints zero = round_down(splat(0.0)), x0 = add(zero, r.x0), x1 = add(zero, r.x1);
-  return open_strips(window, e, strips, [&](const Lanes&, Ints& from, Ints& to) { from = x0, to = x1; });
+  if (r.x0 >= r.x1) return false;
+  for (int block = r.x0 / 64; 64 * block < r.x1; block += 8) {
+    const Words asked = columns_of(r, block);
+    for (int strip = r.y0 / 8; 8 * strip < r.y1; ++strip) {
+      if (!any_beyond(asked, load(window.columns + (strip * window.blocks + block)))) continue;
+      ++strips;
+      const bool whole = r.y0 <= 8 * strip && 8 * strip + 8 <= r.y1;
+      if (whole || open_rows(window, r, strip, block)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace

@@ -123,8 +123,19 @@ inline Words span(const Ints& first, const Ints& end, int offset) {
 inline Words operator|(const Words& x, const Words& y) {
   return {_mm256_or_si256(x.a, y.a), _mm256_or_si256(x.b, y.b)};
 }
-inline bool all_ones(const Words& x) {
-  return _mm256_testc_si256(_mm256_and_si256(x.a, x.b), _mm256_set1_epi64x(-1)) != 0;
+inline std::uint64_t common(const Words& x) {
+  const __m256i q = _mm256_and_si256(x.a, x.b);
+  const __m128i h = _mm_and_si128(_mm256_castsi256_si128(q), _mm256_extracti128_si256(q, 1));
+  return static_cast<std::uint64_t>(_mm_cvtsi128_si64(h) & _mm_extract_epi64(h, 1));
+}
+inline Words in_rows(std::uint64_t bits, int from, int to) {
+  const __m256i word = _mm256_set1_epi64x(static_cast<long long>(bits));
+  const __m256i below = _mm256_set1_epi64x(from - 1), end = _mm256_set1_epi64x(to);
+  const auto half = [&](__m256i row) {
+    const __m256i in = _mm256_and_si256(_mm256_cmpgt_epi64(row, below), _mm256_cmpgt_epi64(end, row));
+    return _mm256_and_si256(word, in);
+  };
+  return {half(_mm256_setr_epi64x(0, 1, 2, 3)), half(_mm256_setr_epi64x(4, 5, 6, 7))};
 }
 inline bool any_beyond(const Words& bits, const Words& words) {
   // testc(words, bits): no bit of `bits` outside `words`.

@@ -106,7 +106,15 @@ inline Words span(const Ints& first, const Ints& end, int offset) {
   return {_mm512_andnot_si512(_mm512_sllv_epi64(ones, b), _mm512_sllv_epi64(ones, a))};
 }
 inline Words operator|(const Words& a, const Words& b) { return {_mm512_or_si512(a.v, b.v)}; }
-inline bool all_ones(const Words& a) { return _mm512_cmpneq_epi64_mask(a.v, _mm512_set1_epi64(-1)) == 0; }
+inline std::uint64_t common(const Words& a) {
+  const __m256i q = _mm256_and_si256(_mm512_castsi512_si256(a.v), _mm512_extracti64x4_epi64(a.v, 1));
+  const __m128i h = _mm_and_si128(_mm256_castsi256_si128(q), _mm256_extracti128_si256(q, 1));
+  return static_cast<std::uint64_t>(_mm_cvtsi128_si64(h) & _mm_extract_epi64(h, 1));
+}
+inline Words in_rows(std::uint64_t bits, int from, int to) {
+  const unsigned rows = (255u << from) & (255u >> (8 - to));
+  return {_mm512_maskz_set1_epi64(static_cast<__mmask8>(rows), static_cast<long long>(bits))};
+}
 inline bool any_beyond(const Words& bits, const Words& words) {
   const __m512i open = _mm512_andnot_si512(words.v, bits.v);
   return _mm512_test_epi64_mask(open, open) != 0;

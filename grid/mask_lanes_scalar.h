@@ -165,10 +165,17 @@ inline Words operator|(const Words& a, const Words& b) {
   for (int k = 0; k < 8; ++k) r.v[k] = a.v[k] | b.v[k];
   return r;
 }
-inline bool all_ones(const Words& a) {
+/// The bits that all eight have.
+inline std::uint64_t common(const Words& a) {
   std::uint64_t r = ~std::uint64_t{0};
   for (int k = 0; k < 8; ++k) r &= a.v[k];
-  return r == ~std::uint64_t{0};
+  return r;
+}
+/// The same bits in words [from, to), none in the others.
+inline Words in_rows(std::uint64_t bits, int from, int to) {
+  Words r;
+  for (int k = 0; k < 8; ++k) r.v[k] = from <= k && k < to ? bits : 0;
+  return r;
 }
 /// Whether a bit of `bits` is unset in `words`.
 inline bool any_beyond(const Words& bits, const Words& words) {

@@ -79,7 +79,9 @@ GRIDCULL_MASK_INLINE int cover_strips(Window& window, const Extent& e, std::uint
     std::uint64_t* const words = window.words + 8 * (strip * window.blocks + block);
     const Words now = load(words) | bits;
     store(words, now);
-    if (all_ones(now)) {
+    const std::uint64_t columns = common(now);
+    window.columns[strip * window.blocks + block] = columns;
+    if (columns == ~std::uint64_t{0}) {
       window.full[strip * window.coarse + block / 64] |= std::uint64_t{1} << (block % 64);
       ++filled;
     }

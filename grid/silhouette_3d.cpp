@@ -10,8 +10,13 @@
 // occluder Y before q. Y was found visible before it was pushed and is neither what the viewer rides on nor around the
 // viewpoint. Y = X is impossible, X would have been reported. So v-p meets the interior of another occluder: p was
 // not visible. Pixels outside the view volume's sides start covered; p is inside them.
-// Objects nearer than the near plane are entered as occluders too, though not reported; nothing beyond the range can
-// hide what is within it.
+// Shortcuts. What lies beyond a side of the one window has no pixel there: it is neither visible nor hides anything,
+// and is not pushed. Hidden by the rectangle about its ball, which holds every pixel that the object touches, an object
+// is hidden. Its one pixel at its nearest point (or middle) being open, it is reported without any outline: an answer
+// that lets an object through needs no proof. It is as tight as the whole test, for the point belongs to the object's
+// hull, and for balls and boxes also to the nearest slice; rounding may take it one pixel beside the outline. Objects
+// nearer than the near plane are entered as occluders too, though not reported; nothing beyond the range can hide what
+// is within it.
 //
 // Cost: nodes, objects and pixels in front of what is visible; what is behind covered pixels is met as nodes only.
 // The order inside a bucket and the shape of the index change no answer: a test depends on the occluders of lower
@@ -49,6 +54,13 @@ double farthest_of_box(const Vec3& low, const Vec3& high) {
   const auto reach = [&](int k) { return std::max(std::fabs(low[k]), std::fabs(high[k])); };
   const double x = reach(0), y = reach(1), z = reach(2);
   return std::sqrt(x * x + y * y + z * z);
+}
+
+/// The point of a box that is nearest to the viewpoint, or the middle of something else; relative to the viewpoint.
+Vec3 front_of(const ConvexPiece& hull, const SightFrame& frame) {
+  const Vec3& c = hull.centre;
+  const Vec3 front = hull.kind == ConvexPiece::Kind::box ? glm::clamp(frame.apex, c - hull.half, c + hull.half) : c;
+  return frame.origin + frame.rotation * front;
 }
 
 }  // namespace
@@ -160,7 +172,11 @@ void Silhouette3D::open_node(LooseIndex::NodeId id) {
   }
   ++answer_->work.cells_visited;
   if (drawing_) walked_.opened.push_back(id);
-  for (Slot slot = node.first; slot != none; slot = index.next(slot)) push_entry(slot);
+  for (Slot slot = node.first, next; slot != none; slot = next) {
+    next = index.next(slot);
+    index.prefetch(next);
+    push_entry(slot);
+  }
   if (id.level > 0) push_children(id);
 }
 
@@ -169,24 +185,28 @@ void Silhouette3D::push_children(const LooseIndex::NodeId& id) {
   if (children == nullptr) return;
   for (int child = 0; child < 8; ++child) {
     if (children[child].below == 0) continue;
+    shapes_->index.prefetch(children[child].first);
     push_node({id.level - 1, 2 * id.x + (child & 1), 2 * id.y + (child >> 1 & 1), 2 * id.z + (child >> 2)});
   }
 }
 
-double Silhouette3D::nearest_of(const LooseBall& ball) const {
-  return glm::length(ball.centre - volume_->apex()) - ball.radius -
-         rounding * (apex_size_ + magnitude(ball.centre) + ball.radius);
+double Silhouette3D::grown(const LooseBall& ball) const {
+  return ball.radius + rounding * (apex_size_ + magnitude(ball.centre) + ball.radius);
 }
 
 void Silhouette3D::push_entry(Slot slot) {
   if (slot == rides_) return;
-  const bool hidden = world_->objects[slot].place == Place::hidden;
+  const std::uint8_t marks = shapes_->index.marks(slot);
+  const bool hidden = (marks & SilhouetteWorld::is_hidden) != 0;
+  if ((marks & SilhouetteWorld::is_ball) == 0) shapes_->prefetch_solid(slot);
   push(hidden ? FrontQueue::Kind::volume : FrontQueue::Kind::object, slot, shapes_->index.ball(slot));
 }
 
+// What lies beside the window is neither seen nor hides what is.
 void Silhouette3D::push(FrontQueue::Kind kind, Slot slot, const LooseBall& ball) {
-  const double key = nearest_of(ball);
-  if (key <= limit_) queue_.push(kind, key, slot);
+  const Vec3 centre = ball.centre - volume_->apex();
+  const double radius = grown(ball), key = glm::length(centre) - radius;
+  if (key <= limit_ && !mask_.beyond_window(centre, radius)) queue_.push(kind, key, slot);
 }
 
 // A volume that is open somewhere is given up: its object is read and looked at like any other, when its own depth
@@ -194,22 +214,27 @@ void Silhouette3D::push(FrontQueue::Kind kind, Slot slot, const LooseBall& ball)
 void Silhouette3D::look_at_volume(Slot slot) {
   ++answer_->work.tbv_tests;
   const LooseBall& ball = shapes_->index.ball(slot);
-  const Vec3 centre = ball.centre - volume_->apex();
-  if (!mask_.open_ball(centre, ball.radius + rounding * (apex_size_ + magnitude(ball.centre)))) return;
+  if (!mask_.open_ball(ball.centre - volume_->apex(), grown(ball))) return;
   ++answer_->work.tbv_revealed;
   result_->revealed.push_back(slot);
   push(FrontQueue::Kind::object, slot, shapes_->ball_at(slot, world_->read(slot)));
 }
 
 void Silhouette3D::look(Slot slot) {
-  const LooseBall ball = shapes_->ball_at(slot, world_->objects[slot].pose);
+  const std::uint8_t marks = shapes_->index.marks(slot);
+  const bool has_volume = (marks & SilhouetteWorld::is_hidden) != 0;
+  const LooseBall ball = has_volume ? shapes_->ball_at(slot, pose_of(slot)) : shapes_->index.ball(slot);
   ++answer_->work.object_tests;
-  if (nearest_of(ball) <= 0.0 && holds_viewpoint(slot)) {
+  // Most objects that are met are hidden, and most of those are found to be by the rectangle about their ball.
+  const Vec3 centre = ball.centre - volume_->apex();
+  const double radius = grown(ball);
+  if (!mask_.open_about_ball(centre, radius)) return;
+  if (glm::dot(centre, centre) <= radius * radius && holds_viewpoint(slot)) {
     result_->seen.push_back(slot);
     return;
   }
   Sliced object{slot, 0, 0.0, 0.0};
-  if (!open_whole(slot, ball, object)) return;
+  if (!((marks & SilhouetteWorld::is_ball) != 0 ? open_as_ball(ball, object) : open_whole(slot, object))) return;
   if (object.farthest > object.nearest) {
     look_at_slices(object);
   } else {
@@ -227,13 +252,16 @@ SightFrame Silhouette3D::sight(Slot slot) const {
   return sight_frame(pose, rotation_of(pose.orientation), volume_->apex());
 }
 
-bool Silhouette3D::open_whole(Slot slot, const LooseBall& ball, Sliced& object) {
-  const SilhouetteWorld::Solid* solid = shapes_->solid(slot);
-  if (solid != nullptr && solid->ball.radius == 0.0) return open_solid(slot, *solid, object);
-  const LooseBall tested = solid != nullptr ? bounding_ball(slot, *solid) : ball;
-  const Vec3 centre = tested.centre - volume_->apex();
-  if (!mask_.open_ball(centre, tested.radius)) return false;
-  const std::array<double, 2> entrance = ball_entrance(glm::length(centre), tested.radius);
+bool Silhouette3D::open_whole(Slot slot, Sliced& object) {
+  const SilhouetteWorld::Solid& solid = *shapes_->solid(slot);
+  return solid.ball.radius > 0.0 ? open_as_ball(bounding_ball(slot, solid), object) : open_solid(slot, solid, object);
+}
+
+bool Silhouette3D::open_as_ball(const LooseBall& ball, Sliced& object) {
+  const Vec3 centre = ball.centre - volume_->apex();
+  if (mask_.open_towards(centre)) return true;
+  if (!mask_.open_ball(centre, ball.radius)) return false;
+  const std::array<double, 2> entrance = ball_entrance(glm::length(centre), ball.radius);
   object.nearest = entrance[0];
   object.farthest = entrance[1];
   return true;
@@ -255,6 +283,7 @@ bool Silhouette3D::open_solid(Slot slot, const SilhouetteWorld::Solid& solid, Sl
   const Vec3 half = glm::abs(r.x) * solid.box_half.x + glm::abs(r.y) * solid.box_half.y +
                     glm::abs(r.z) * solid.box_half.z + Vec3(blur);
   if (!mask_.open_box(centre - half, centre + half)) return false;
+  if (mask_.open_towards(front_of(solid.outer, frame))) return true;
   if (!outer_outline({solid.outer, frame}, outline_)) return true;
   if (!mask_.open_convex(outline_.rays.data(), outline_.count)) return false;
   if (outline_.farthest > worth_slicing * outline_.nearest) {

@@ -57,7 +57,8 @@ class Silhouette3D final : public ViewAnswerer {
   /// First test: the object as a whole.
   void look(Slot slot);
   bool holds_viewpoint(Slot slot) const;
-  bool open_whole(Slot slot, const LooseBall& ball, Sliced& object);
+  bool open_whole(Slot slot, Sliced& object);
+  bool open_as_ball(const LooseBall& ball, Sliced& object);
   /// Where an object is tested as a bounding sphere: that, in the world, with all that rounding may do.
   LooseBall bounding_ball(Slot slot, const SilhouetteWorld::Solid& solid) const;
   bool open_solid(Slot slot, const SilhouetteWorld::Solid& solid, Sliced& object);
@@ -71,8 +72,8 @@ class Silhouette3D final : public ViewAnswerer {
   void push_loop(const Outline& loop, double key);
   void enter(const Occluder& occluder);
   bool in_view(Slot slot) const;
-  /// A lower bound of the distance from the viewpoint to the ball's points.
-  double nearest_of(const LooseBall& ball) const;
+  /// The ball's radius and what the rounding of its place relative to the viewpoint may make of it.
+  double grown(const LooseBall& ball) const;
   SightFrame sight(Slot slot) const;
   const Pose& pose_of(Slot slot) const { return world_->objects[slot].pose; }
 

@@ -261,7 +261,14 @@ inline void cover(CoverageMask& mask, const Cone& cone, Dice& dice) {
 }
 
 inline bool open(const CoverageMask& mask, const Cone& cone, Dice& dice) {
-  if (cone.is_ball()) return mask.open_ball(blurred(cone.axis, dice), cone.radius * (1 - 0x1p-41));
+  if (cone.is_ball()) {
+    const Vec3 centre = blurred(cone.axis, dice);
+    const double radius = cone.radius * (1 - 0x1p-41);
+    const bool is_open = mask.open_ball(centre, radius);
+    if (is_open) REQUIRE(mask.open_about_ball(centre, radius));  // the cheap tests may only err the other way
+    if (is_open) REQUIRE_FALSE(mask.beyond_window(centre, radius));
+    return is_open;
+  }
   std::vector<Vec3> rays;
   for (const Vec3& r : cone.rays) rays.push_back(blurred(r, dice));
   if (dice.chance(0.5)) std::reverse(rays.begin(), rays.end());

@@ -235,6 +235,52 @@ TEST_CASE("boxes are open while one of their pixels is, and hidden behind what c
   CHECK(hidden > 500);
 }
 
+TEST_CASE("a rectangle is open where one of its pixels is, and nowhere else") {
+  int hidden = 0, opened = 0;
+  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
+    CAPTURE(seed);
+    Dice dice{std::mt19937_64(seed)};
+    Stage s(kinds[seed % 3], {8, 40, 72, 200, 640}, dice);
+    for (int i = 0; i < 5; ++i) cover(s.mask, random_cone(s.mask, dice), dice);
+    const masking::Window& w = s.mask.face(dice.integer(0, s.mask.faces() - 1)).window;
+    if (w.open_blocks == 0) continue;
+    const auto& open_rectangle = *masking::kernels_of(some_set(dice)).open_rectangle;
+    for (int i = 0; i < 40; ++i) {
+      masking::Rectangle r{dice.integer(0, w.width - 1), 0, dice.integer(0, w.height - 1), 0};
+      r.x1 = dice.integer(r.x0 + 1, dice.chance(0.5) ? std::min(r.x0 + 12, w.width) : w.width);
+      r.y1 = dice.integer(r.y0 + 1, dice.chance(0.5) ? std::min(r.y0 + 12, w.height) : w.height);
+      bool truth = false;
+      for (int y = r.y0; y < r.y1; ++y) {
+        for (int x = r.x0; x < r.x1; ++x) {
+          truth = truth || (w.words[8 * (y / 8 * w.blocks + x / 64) + y % 8] >> (x % 64) & 1) == 0;
+        }
+      }
+      std::uint64_t strips = 0;
+      REQUIRE(open_rectangle(w, r, strips) == truth);
+      ++(truth ? opened : hidden);
+    }
+  }
+  CHECK(hidden > 500);
+  CHECK(opened > 500);
+}
+
+TEST_CASE("a direction is open when its pixel is") {
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    CAPTURE(seed);
+    Dice dice{std::mt19937_64(seed)};
+    Stage s(kinds[seed % 3], {8, 16, 40}, dice);
+    for (int i = 0; i < 4; ++i) cover(s.mask, random_cone(s.mask, dice), dice);
+    each_pixel(s.mask, [&](const Pixel& p) {
+      const Vec3 d = s.mask.face(p.face).direction(p.x + dice.real(0.01, 0.99), p.y + dice.real(0.01, 0.99));
+      REQUIRE(s.mask.open_towards(dice.power(-8, 8) * d) != covered(s.mask, p));
+    });
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 d = dice.direction();
+      if (pixel_of(s.mask, ray(d)).face < 0) REQUIRE_FALSE(s.mask.open_towards(d));
+    }
+  }
+}
+
 TEST_CASE("what holds the viewpoint is open until nothing is") {
   Dice dice{std::mt19937_64(7)};
   for (const ViewKind kind : kinds) {

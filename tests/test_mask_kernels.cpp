@@ -57,6 +57,11 @@ void add(StableHash& hash, const CoverageMask& mask) {
     hash.add(static_cast<std::uint32_t>(w.open_blocks));
     for (int i = 0; i < 8 * w.blocks * w.strips; ++i) add(hash, w.words[i]);
     for (int i = 0; i < w.coarse * w.strips; ++i) add(hash, w.full[i]);
+    for (int i = 0; i < w.blocks * w.strips && w.open_blocks > 0; ++i) {
+      std::uint64_t rows = ~std::uint64_t{0};
+      for (int row = 0; row < 8; ++row) rows &= w.words[8 * i + row];
+      REQUIRE(w.columns[i] == rows);
+    }
   }
 }
 
