@@ -11,6 +11,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
+
 #include "gridcull/grid/angular_hull.h"
 #include "gridcull/grid/sight.h"
 #include "gridcull/grid/silhouette_loop.h"
@@ -123,6 +125,10 @@ class Sections {
   Sections(const PlacedPiece& placed, const VertexLoop& loop) : placed_(placed), loop_(loop) {}
 
   double nearest() const {
+    if (placed_.piece.kind == ConvexPiece::Kind::box) {
+      const Vec3 off = glm::abs(placed_.frame.apex - placed_.piece.centre) - placed_.piece.half;
+      return glm::length(glm::max(off, Vec3(0.0)));
+    }
     double least = std::numeric_limits<double>::infinity();
     for_front_faces([&](const FrontFace& face) { least = std::min(least, distance_of(face)); });
     return least;
@@ -171,30 +177,36 @@ int wanted_keys(double nearest, double farthest, std::array<double, 3>& keys) {
   return keys = {nearest * quarter, nearest * half, nearest * half * quarter}, 3;
 }
 
+/// Only the rays that there are: an outline has room for 64.
+void assign(Section& to, const Section& from) {
+  if (&to == &from) return;
+  to.key = from.key;
+  to.outline.count = from.outline.count;
+  to.outline.nearest = from.outline.nearest, to.outline.farthest = from.outline.farthest;
+  std::copy_n(from.outline.rays.begin(), from.outline.count, to.outline.rays.begin());
+}
+
 }  // namespace
 
 int sections(const PlacedPiece& placed, std::span<Section> out) {
   if (out.empty()) return 0;
-  Outline& whole = out[0].outline;
-  if (!silhouette(placed, whole)) return 0;
-  out[0].key = whole.farthest;
-  const double farthest = whole.farthest, least = farthest - 2.0 * placed.piece.radius;
-  if (out.size() == 1 || farthest <= paying[0] * least) return 1;
-  if (!(2.0 * sight_blur(placed.piece, placed.frame) <= placed.piece.slack)) return 1;
-  VertexLoop loop;
-  find_loop(placed.piece, placed.frame.apex, loop);
-  const Sections at(placed, loop);
-  std::array<double, 3> keys;
-  const int wanted = std::min(wanted_keys(at.nearest(), farthest, keys), static_cast<int>(out.size()) - 1);
+  Section& whole = out.back();
+  if (!silhouette(placed, whole.outline)) return 0;
+  const double farthest = whole.key = whole.outline.farthest, least = farthest - 2.0 * placed.piece.radius;
   int count = 0;
-  for (int i = 0; i < wanted; ++i) {
-    Section& section = out[static_cast<std::size_t>(count)];
-    if (at.at(keys[static_cast<std::size_t>(i)], section) && section.key < farthest) ++count;
+  if (out.size() > 1 && farthest > paying[0] * least &&
+      2.0 * sight_blur(placed.piece, placed.frame) <= placed.piece.slack) {
+    VertexLoop loop;
+    find_loop(placed.piece, placed.frame.apex, loop);
+    const Sections at(placed, loop);
+    std::array<double, 3> keys;
+    const int wanted = std::min(wanted_keys(at.nearest(), farthest, keys), static_cast<int>(out.size()) - 1);
+    for (int i = 0; i < wanted; ++i) {
+      Section& section = out[static_cast<std::size_t>(count)];
+      if (at.at(keys[static_cast<std::size_t>(i)], section) && section.key < farthest) ++count;
+    }
   }
-  // Again rather than copied: an outline has room for 64 rays.
-  Section& last = out[static_cast<std::size_t>(count++)];
-  silhouette(placed, last.outline);
-  last.key = farthest;
+  assign(out[static_cast<std::size_t>(count++)], whole);
   return count;
 }
 

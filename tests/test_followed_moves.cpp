@@ -54,8 +54,9 @@ class Restless {
  private:
   void add(ObjectId id) {
     const bool is_static = id % 5 == 0;
-    Object o =
-        make_object(id, id % 3 == 0 ? Shape(Sphere{random_.uniform(0.3, 3.0)}) : Shape(Cuboid{{4, 2, 3}}), spot());
+    const Shape box = Cuboid{id % 10 == 0 ? Vec3(2, 50, 40) : Vec3(4, 2, 3)};  // walls, for somebody to be hidden
+    const Shape ball = Sphere{random_.uniform(0.3, 3.0)};
+    Object o = make_object(id, id % 2 == 1 ? ball : box, spot());
     if (id % 7 != 0) o.max_speed = id % 11 == 0 ? 0.0 : greatest_speed;
     o.is_static = is_static;
     engine_.add(o);
