@@ -105,6 +105,8 @@ class Run {
     o.bounds = script.bounds;
     o.cell = script.cell;
     o.tbv = script.tbv;
+    // Coarse pixels in some worlds: there a wrong one shows.
+    if (script.tbv == "off" && method.options.find("--resolution R") != std::string_view::npos) o.resolution = 32;
     push_ = method.make(o);
     o.threads = script.threads;
     pull_ = method.make(o);

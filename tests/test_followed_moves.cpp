@@ -28,8 +28,8 @@ class Restless {
   void frame() {
     for (int i = 0; i < 60; ++i) change(static_cast<ObjectId>(random_.below(70)));
     if (random_.below(4) == 0) switch_source();
-    std::uint64_t jumps = 0;
-    for (const auto& [id, from] : pushed_) jumps += jumped(objects_.at(id), from);
+    std::uint64_t jumped_now = 0;
+    for (const auto& [id, from] : pushed_) jumped_now += jumped(objects_.at(id), from);
     pushed_.clear();
     now_ += seconds;
     std::vector<View> views{make_view(1, spot()), make_view(2, spot())};
@@ -40,11 +40,11 @@ class Restless {
     for (const auto& [id, object] : objects_) fresh.add(object);
     fresh.query(now_, views, expected);
     for (std::size_t i = 0; i < views.size(); ++i) CHECK(answers.views[i].visible == expected.views[i].visible);
-    CHECK(answers.stats.jumps == jumps);
+    CHECK(answers.stats.jumps == jumped_now);
     if (tbv_ == TbvMode::off || (tbv_ == TbvMode::automatic && !pulling_)) CHECK(answers.stats.tbv_active == 0);
     if (tbv_ != TbvMode::automatic && !pulling_) moving_read(answers.stats);
     volumes += answers.stats.tbv_active;
-    this->jumps += jumps;
+    jumps += jumped_now;
     fresh_ = false;
     added_.clear();
   }
