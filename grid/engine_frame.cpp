@@ -10,9 +10,9 @@
 #include <tbb/task_arena.h>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/hand_over.h"
 #include "gridcull/core/view_volume.h"
 #include "gridcull/grid/engine_state.h"
-#include "gridcull/core/hand_over.h"
 
 namespace gridcull {
 namespace {

@@ -82,7 +82,8 @@ int run_program(int argc, const char* const* argv) {
     return refuse(e.what());
   }
   if (!action)
-    return refuse("a command is missing: run, check, info, explain, make, import, methods, bake or bench (see gridcull --help)");
+    return refuse(
+        "a command is missing: run, check, info, explain, make, import, methods, bake or bench (see gridcull --help)");
   return perform(action);
 }
 
