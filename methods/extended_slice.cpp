@@ -13,6 +13,8 @@
 #include <cmath>
 #include <limits>
 
+#include "gridcull/methods/even_odd.h"
+
 namespace gridcull::extended {
 namespace {
 
@@ -32,15 +34,6 @@ bool clear_of(const Quad& quad, const Vec2& a, const Vec2& b, double margin) {
     right += side < -least;
   }
   return left == 4 || right == 4;
-}
-
-bool even_odd(const std::vector<Vec2>& outline, const Vec2& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const Vec2 a = outline[j] - p, b = outline[i] - p;
-    if ((a.y > 0.0) != (b.y > 0.0) && (cross2(a, b) > 0.0) == (b.y > a.y)) inside = !inside;
-  }
-  return inside;
 }
 
 bool holds_quad(const ConcavePrism& prism, const std::array<Vec3, 4>& corners, double margin) {

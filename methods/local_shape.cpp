@@ -6,6 +6,7 @@
 
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/hull.h"
+#include "gridcull/methods/even_odd.h"
 
 namespace gridcull {
 namespace {
@@ -56,15 +57,6 @@ bool hull_blocks(const LocalShape& shape, const Vec3& from, const Vec3& along) {
     if (piece.empty()) return false;
   }
   return true;
-}
-
-bool even_odd(const std::vector<Vec2>& outline, const Vec2& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const Vec2 a = outline[j] - p, b = outline[i] - p;
-    if ((a.y > 0.0) != (b.y > 0.0) && (cross2(a, b) > 0.0) == (b.y > a.y)) inside = !inside;
-  }
-  return inside;
 }
 
 /// Parameters at which the line crosses the outline, ascending: in pairs they are its pieces inside (even-odd rule).
