@@ -162,7 +162,9 @@ void GridEngine::State::note_viewers(std::span<const View> views) {
 void GridEngine::State::answer_views(std::span<const View> views, Answers& out) {
   out.views.resize(views.size());
   results.resize(std::max(results.size(), views.size()));
-  const auto one = [&](std::size_t i, ViewAnswerer& task) {
+  const std::span<const std::uint32_t> order = view_order.sort(views, world.lattice.box());
+  const auto one = [&](std::size_t place, ViewAnswerer& task) {
+    const std::size_t i = order[place];
     DrawSink* sink = draw_sink != nullptr && views[i].viewer == draw_viewer ? draw_sink : nullptr;
     task.run(world, views[i], out.views[i], results[i], sink);
   };

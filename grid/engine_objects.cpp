@@ -65,7 +65,7 @@ void GridEngine::State::add(const Object& object) {
   const std::size_t slots = world.objects.size();
   if (world.silhouettes) {
     world.silhouettes->reserve(slots);
-    world.silhouettes->add(slot, object.shape);
+    world.silhouettes->add(slot, object.shape, object.occluder);
   } else {
     world.tbv.reserve(slots);
     world.hollow.reserve(slots);
@@ -119,7 +119,8 @@ void GridEngine::State::move(Slot slot, const Pose& pose) {
   // Who tells of many moves mostly does so in the order in which the objects came.
   if (follows_at_once() && slot + ahead < world.objects.size()) {
     world.objects.prefetch(slot + ahead);
-    world.silhouettes->index.prefetch(slot + ahead);
+    world.silhouettes->index.prefetch_ball(slot + ahead);
+    world.silhouettes->index.prefetch(slot + 2 * ahead < world.objects.size() ? slot + 2 * ahead : slot);
   }
   note_pushed(slot, pose.position);
   state.pose = pose;

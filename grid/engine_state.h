@@ -12,6 +12,7 @@
 #include "gridcull/grid/grid_world.h"
 #include "gridcull/grid/tbv_term.h"
 #include "gridcull/grid/view_answerer.h"
+#include "gridcull/grid/view_order.h"
 #include "gridcull/grid/viewer_paths.h"
 
 namespace gridcull {
@@ -95,6 +96,7 @@ struct GridEngine::State {
   std::vector<std::uint8_t> seen;  // per slot: in somebody's PVS in this frame
   std::vector<Slot> expired;
   std::vector<Slot> hiding;
+  ViewOrder view_order;
   std::vector<ViewResult> results;                   // per view
   std::vector<std::unique_ptr<ViewAnswerer>> tasks;  // per thread
   std::unique_ptr<tbb::task_arena> arena;            // made when first needed

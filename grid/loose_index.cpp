@@ -39,7 +39,10 @@ LooseIndex::LooseIndex(int dimension, const Bounds& box, double side) : dimensio
   }
 }
 
-void LooseIndex::reserve(std::size_t count) { grow(entries_, std::max(count, entries_.size())); }
+void LooseIndex::reserve(std::size_t count) {
+  grow(entries_, std::max(count, entries_.size()));
+  rows_.reserve(entries_.capacity());
+}
 
 int LooseIndex::level_for(double radius) const {
   const double sides = 2.0 * radius * inverse_side_;
@@ -80,18 +83,14 @@ void LooseIndex::use_level(int level) {
   }
 }
 
-void LooseIndex::link(Slot slot, Node& node) {
-  Entry& entry = entries_[slot];
-  entry.before = none;
-  entry.after = node.first;
-  if (node.first != none) entries_[node.first].before = slot;
-  node.first = slot;
+void LooseIndex::link(Slot slot, const LooseBall& ball, std::uint32_t& row) {
+  entries_[slot].place = rows_.add(row, {ball, slot, entries_[slot].marks});
 }
 
-void LooseIndex::unlink(Slot slot, Node& node) {
-  const Entry& entry = entries_[slot];
-  (entry.before == none ? node.first : entries_[entry.before].after) = entry.after;
-  if (entry.after != none) entries_[entry.after].before = entry.before;
+void LooseIndex::unlink(Slot slot, std::uint32_t& row) {
+  const Slot moved = rows_.remove(row, entries_[slot].place);
+  if (moved != none) entries_[moved].place = entries_[slot].place;
+  entries_[slot].place = none;
 }
 
 // Adds `step` (1 or -1) to the counts from `id` up to the level below `below`.
@@ -105,20 +104,20 @@ void LooseIndex::count(NodeId id, std::uint32_t step, int below) {
 void LooseIndex::place(Slot slot, const LooseBall& ball) {
   Entry& entry = entries_[slot];
   const int height = static_cast<int>(levels_.size());
-  const int level = ball.radius == entry.ball.radius && entry.level != nowhere ? entry.level : level_for(ball.radius);
+  const bool here = entry.level != nowhere;
+  const int level = here && ball.radius == rows_[entry.place].ball.radius ? entry.level : level_for(ball.radius);
   Level& home = levels_[static_cast<std::size_t>(level)];
   const NodeId id = node_of(ball.centre, level);
   const auto index = static_cast<std::uint32_t>(home.index(id, dimension_));
   if (entry.level == level && entry.node == index) {
-    entry.ball = ball;
+    rows_[entry.place].ball = ball;
     return;
   }
   if (home.nodes.empty()) use_level(level);
-  if (entry.level != nowhere) {
+  if (here) {
     // Counts change only below the first ancestor that the old node and the new one share.
-    Level& old_home = levels_[entry.level];
     NodeId from{entry.level, entry.x, entry.y, entry.z}, to = id;
-    unlink(slot, old_home.nodes[entry.node]);
+    unlink(slot, levels_[entry.level].nodes[entry.node].first);
     int shared = std::max(from.level, to.level);
     while (shared < height && ((from.x >> (shared - from.level)) != (to.x >> (shared - to.level)) ||
                                (from.y >> (shared - from.level)) != (to.y >> (shared - to.level)) ||
@@ -128,26 +127,37 @@ void LooseIndex::place(Slot slot, const LooseBall& ball) {
     count(from, ~std::uint32_t{0}, shared);
     count(to, 1, shared);
   } else {
+    if (entry.place != none) unlink(slot, remembered_);
     count(id, 1, height);
     ++size_;
   }
-  entry.ball = ball;
   entry.level = static_cast<std::uint8_t>(level);
   entry.node = index;
   entry.x = id.x;
   entry.y = id.y;
   entry.z = id.z;
-  link(slot, home.nodes[index]);
+  link(slot, ball, home.nodes[index].first);
 }
 
 void LooseIndex::erase(Slot slot) {
   Entry& entry = entries_[slot];
-  if (entry.level == nowhere) return;
-  unlink(slot, levels_[entry.level].nodes[entry.node]);
+  if (entry.level == nowhere) {
+    if (entry.place != none) unlink(slot, remembered_);
+    return;
+  }
+  unlink(slot, levels_[entry.level].nodes[entry.node].first);
   count({entry.level, entry.x, entry.y, entry.z}, ~std::uint32_t{0}, static_cast<int>(levels_.size()));
   entry.level = nowhere;
   entry.node = none;
   --size_;
+}
+
+void LooseIndex::remember(Slot slot, const LooseBall& ball) {
+  if (entries_[slot].place != none) {
+    rows_[entries_[slot].place].ball = ball;
+  } else {
+    link(slot, ball, remembered_);
+  }
 }
 
 std::uint64_t LooseIndex::node_bytes() const {

@@ -7,7 +7,7 @@
 // empty space is skipped, and the eight (2D: four) children of a node share a cache line.
 //
 // Cost: placing an object is a division by the side and a compare when it stayed in its node; a few stores when it
-// did not. Memory: 8 bytes a node of the levels in use, 64 an object.
+// did not. Memory: 8 bytes a node of the levels in use, 28 an object and 43 to 128 for its ball.
 #pragma once
 
 #include <cmath>
@@ -15,15 +15,9 @@
 #include <vector>
 
 #include "gridcull/core/bounds.h"
-#include "gridcull/grid/identifier_matrix.h"
+#include "gridcull/grid/ball_rows.h"
 
 namespace gridcull {
-
-/// A ball (2D: disc), metres.
-struct LooseBall {
-  Vec3 centre{0.0};
-  double radius = 0.0;
-};
 
 class LooseIndex {
  public:
@@ -33,7 +27,7 @@ class LooseIndex {
     std::int32_t x, y, z;  ///< z = 0 in 2D
   };
   struct Node {
-    std::uint32_t first = none;  ///< slot of the first entry that hangs here
+    std::uint32_t first = none;  ///< chunk of the first entries that hang here (rows())
     std::uint32_t below = 0;     ///< entries here and below
   };
 
@@ -53,27 +47,37 @@ class LooseIndex {
   /// Moves a ball that stays in its node and keeps its radius: false, and nothing done, when it does not or is not
   /// here.
   bool follow(Slot slot, const LooseBall& ball) {
-    Entry& entry = entries_[slot];
-    if (entry.level == nowhere || ball.radius != entry.ball.radius) return false;
-    const double inverse = inverse_side(entry.level);
-    const auto stays = [&](double x, double low, std::int32_t i) {
-      const double t = (x - low) * inverse - static_cast<double>(i);
-      return t >= 0.0 && t < 1.0;
-    };
-    const Vec3& c = ball.centre;
-    if (!stays(c.x, box_.min.x, entry.x) || !stays(c.y, box_.min.y, entry.y)) return false;
-    if (dimension_ == 3 && !stays(c.z, box_.min.z, entry.z)) return false;
-    entry.ball.centre = c;
+    const Entry& entry = entries_[slot];
+    if (entry.level == nowhere) return false;
+    LooseBall& old = rows_[entry.place].ball;
+    if (ball.radius != old.radius || !stays(entry, ball.centre)) return false;
+    old.centre = ball.centre;
+    return true;
+  }
+  /// The same for a ball that keeps its radius for sure.
+  bool follow(Slot slot, const Vec3& centre) {
+    const Entry& entry = entries_[slot];
+    if (entry.level == nowhere || !stays(entry, centre)) return false;
+    rows_[entry.place].ball.centre = centre;
     return true;
   }
   /// Keeps the ball of a slot that is not here, for ball().
-  void remember(Slot slot, const LooseBall& ball) { entries_[slot].ball = ball; }
+  void remember(Slot slot, const LooseBall& ball);
   bool holds(Slot slot) const { return entries_[slot].level != nowhere; }
-  const LooseBall& ball(Slot slot) const { return entries_[slot].ball; }
+  /// Of a slot that is here or remembered.
+  const LooseBall& ball(Slot slot) const { return rows_[entries_[slot].place].ball; }
+  /// Of a slot that is here or remembered: where its ball is now, for item().
+  BallRows::Place place_of(Slot slot) const { return entries_[slot].place; }
+  const BallRows::Item& item(BallRows::Place place) const { return rows_[place]; }
+  const BallRows& rows() const { return rows_; }
   std::uint64_t size() const { return size_; }
   /// Eight bits beside the ball for the caller's own use, 0 at first; nothing here reads or changes them.
-  std::uint8_t& marks(Slot slot) { return entries_[slot].marks; }
   std::uint8_t marks(Slot slot) const { return entries_[slot].marks; }
+  void set_marks(Slot slot, std::uint8_t marks) {
+    Entry& entry = entries_[slot];
+    entry.marks = marks;
+    if (entry.place != none) rows_[entry.place].marks = marks;
+  }
 
   int dimension() const { return dimension_; }
   /// Nodes of the coarsest level: at most two along each axis.
@@ -99,29 +103,36 @@ class LooseIndex {
   /// A node's loose box is its corner + side * [x - 1/2, x + 3/2] and so on, grown by the margin.
   const Vec3& corner() const { return box_.min; }
   double margin() const { return margin_; }
-  Slot next(Slot slot) const { return entries_[slot].after; }
-  /// Hints that a walk will come to the entry soon; `none` is fine.
-  void prefetch(Slot slot) const {
-    if (slot != none) __builtin_prefetch(&entries_[slot]);
+  /// Calls use(item, place) for what hangs in a row (Node::first).
+  template <class Use>
+  void each(std::uint32_t first, Use&& use) const {
+    while (first != none) {
+      const BallRows::Chunk& chunk = rows_.chunk(first);
+      rows_.prefetch(chunk.next);
+      for (std::uint32_t i = 0; i < chunk.count; ++i) use(chunk.items[i], first * BallRows::chunk_items + i);
+      first = chunk.next;
+    }
+  }
+  /// Hints that the slot will be asked for soon.
+  void prefetch(Slot slot) const { __builtin_prefetch(&entries_[slot]); }
+  void prefetch_ball(Slot slot) const {
+    if (entries_[slot].place != none) rows_.prefetch_item(entries_[slot].place);
   }
   /// Box that holds the balls of everything in the node and below (grown by half a side and the rounding).
   Bounds loose_box(const NodeId& id) const;
 
   std::uint64_t node_bytes() const;
-  std::uint64_t entry_bytes() const { return entries_.capacity() * sizeof(Entry); }
+  std::uint64_t entry_bytes() const { return entries_.capacity() * sizeof(Entry) + rows_.bytes(); }
 
  private:
   static constexpr std::uint8_t nowhere = 255;
-  /// One cache line, all that a walk wants to know of most objects.
-  struct alignas(64) Entry {
-    LooseBall ball{};
-    std::uint32_t before = none, after = none;
+  struct Entry {
+    BallRows::Place place = none;
     std::uint32_t node = none;         // index in its level
     std::int32_t x = 0, y = 0, z = 0;  // the node's coordinates
     std::uint8_t level = nowhere;
     std::uint8_t marks = 0;
   };
-  static_assert(sizeof(Entry) == 64);
   struct Level {
     std::int32_t nx, ny, nz;
     double side;
@@ -144,8 +155,18 @@ class LooseIndex {
   int level_for(double radius) const;
   NodeId node_of(const Vec3& centre, int level) const;
   void use_level(int level);
-  void link(Slot slot, Node& node);
-  void unlink(Slot slot, Node& node);
+  bool stays(const Entry& entry, const Vec3& c) const {
+    const double inverse = inverse_side(entry.level);
+    const auto within = [&](double x, double low, std::int32_t i) {
+      const double t = (x - low) * inverse - static_cast<double>(i);
+      return t >= 0.0 && t < 1.0;
+    };
+    return within(c.x, box_.min.x, entry.x) && within(c.y, box_.min.y, entry.y) &&
+           (dimension_ == 2 || within(c.z, box_.min.z, entry.z));
+  }
+  /// Adds the slot to the row, or takes it out.
+  void link(Slot slot, const LooseBall& ball, std::uint32_t& row);
+  void unlink(Slot slot, std::uint32_t& row);
   void count(NodeId id, std::uint32_t step, int below);
 
   int dimension_;
@@ -154,6 +175,8 @@ class LooseIndex {
   double inverse_side_;
   std::vector<Level> levels_;
   std::vector<Entry> entries_;
+  BallRows rows_;
+  std::uint32_t remembered_ = none;  // the row of those that are remembered
   std::uint64_t size_ = 0;
   Node empty_{};
 };

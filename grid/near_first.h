@@ -24,10 +24,13 @@ class NearFirst {
     at_ = 0;
   }
 
-  void push_node(double distance, std::uint32_t node) { push(nodes_, bucket_of(distance), node); }
-  void push_object(double distance, std::uint32_t object) { push(objects_, bucket_of(distance), object); }
+  void push_node(double distance, std::uint32_t node) { push(nodes_, bucket_of(distance), node, 0); }
+  /// `place` is handed back with the object.
+  void push_object(double distance, std::uint32_t object, std::uint32_t place) {
+    push(objects_, bucket_of(distance), object, place);
+  }
 
-  /// Calls node(number), which may push, and object(number), which must not, for all.
+  /// Calls node(number), which may push, and object(number, place), which must not, for all.
   template <class Node, class Object>
   void take_all(Node&& node, Object&& object) {
     for (std::uint32_t w = 0; w < used_.size(); ++w) {
@@ -46,14 +49,17 @@ class NearFirst {
   }
 
   std::uint64_t bytes() const {
-    return sizeof(*this) + items_.capacity() * sizeof(Item) + batch_.capacity() * sizeof(std::uint32_t);
+    return sizeof(*this) + items_.capacity() * sizeof(Item) + batch_.capacity() * sizeof(Met);
   }
 
  private:
   static constexpr std::uint32_t buckets = 256;
   static constexpr std::uint32_t end = 0xFFFF'FFFFu;
   struct Item {
-    std::uint32_t what, next;
+    std::uint32_t what, next, place;
+  };
+  struct Met {
+    std::uint32_t number, place;
   };
   using Heads = std::array<std::uint32_t, buckets>;
 
@@ -67,27 +73,27 @@ class NearFirst {
   template <class Object>
   void take_objects(std::uint32_t first, Object&& object) {
     if (first == end) return;
-    if (items_[first].next == end) return object(items_[first].what);
+    if (items_[first].next == end) return object(items_[first].what, items_[first].place);
     batch_.clear();
-    for (std::uint32_t i = first; i != end; i = items_[i].next) batch_.push_back(items_[i].what);
-    std::sort(batch_.begin(), batch_.end());
-    for (const std::uint32_t what : batch_) object(what);
+    for (std::uint32_t i = first; i != end; i = items_[i].next) batch_.push_back({items_[i].what, items_[i].place});
+    std::sort(batch_.begin(), batch_.end(), [](const Met& a, const Met& b) { return a.number < b.number; });
+    for (const Met& o : batch_) object(o.number, o.place);
   }
-  void push(Heads& heads, std::uint32_t bucket, std::uint32_t what) {
+  void push(Heads& heads, std::uint32_t bucket, std::uint32_t what, std::uint32_t place) {
     const std::uint64_t bit = std::uint64_t{1} << (bucket % 64);
     std::uint64_t& word = used_[bucket / 64];
     if ((word & bit) == 0) {
       word |= bit;
       nodes_[bucket] = objects_[bucket] = end;
     }
-    items_.push_back({what, heads[bucket]});
+    items_.push_back({what, heads[bucket], place});
     heads[bucket] = static_cast<std::uint32_t>(items_.size() - 1);
   }
 
   std::array<std::uint64_t, buckets / 64> used_{};
   Heads nodes_{}, objects_{};  // valid where the bucket's bit is set
   std::vector<Item> items_;
-  std::vector<std::uint32_t> batch_;
+  std::vector<Met> batch_;
   double per_metre_ = 0.0;
   std::uint32_t at_ = 0;
 };

@@ -118,7 +118,8 @@ void Silhouette3D::begin(const View& view) {
     const LooseIndex::NodeId id{top, root & 1, root >> 1 & 1, root >> 2};
     if (shapes_->index.exists(id) && shapes_->index.node(id).below > 0) push_node(id);
   }
-  for (const Slot slot : world.outside) push_entry(slot);
+  const LooseIndex& index = shapes_->index;
+  for (const Slot slot : world.outside) push_entry(index.item(index.place_of(slot)), index.place_of(slot));
 }
 
 // A window of 512 pixels costs a few per cent more than one of 256 and a fifth of the over-estimation. A cube has six
@@ -134,8 +135,8 @@ void Silhouette3D::walk() {
   while (!mask_.full() && queue_.pop(item)) {
     switch (item.kind) {
       case FrontQueue::Kind::node: open_node(nodes_[item.what]); break;
-      case FrontQueue::Kind::volume: look_at_volume(static_cast<Slot>(item.what)); break;
-      case FrontQueue::Kind::object: look(static_cast<Slot>(item.what)); break;
+      case FrontQueue::Kind::volume: look_at_volume(static_cast<BallRows::Place>(item.what)); break;
+      case FrontQueue::Kind::object: look(static_cast<BallRows::Place>(item.what)); break;
       case FrontQueue::Kind::slice: look_at_slices(sliced_[item.what]); break;
       case FrontQueue::Kind::occluder: enter(occluders_[item.what]); break;
     }
@@ -172,11 +173,7 @@ void Silhouette3D::open_node(LooseIndex::NodeId id) {
   }
   ++answer_->work.cells_visited;
   if (drawing_) walked_.opened.push_back(id);
-  for (Slot slot = node.first, next; slot != none; slot = next) {
-    next = index.next(slot);
-    index.prefetch(next);
-    push_entry(slot);
-  }
+  index.each(node.first, [this](const BallRows::Item& item, BallRows::Place place) { push_entry(item, place); });
   if (id.level > 0) push_children(id);
 }
 
@@ -185,7 +182,7 @@ void Silhouette3D::push_children(const LooseIndex::NodeId& id) {
   if (children == nullptr) return;
   for (int child = 0; child < 8; ++child) {
     if (children[child].below == 0) continue;
-    shapes_->index.prefetch(children[child].first);
+    shapes_->index.rows().prefetch(children[child].first);
     push_node({id.level - 1, 2 * id.x + (child & 1), 2 * id.y + (child >> 1 & 1), 2 * id.z + (child >> 2)});
   }
 }
@@ -194,36 +191,37 @@ double Silhouette3D::grown(const LooseBall& ball) const {
   return ball.radius + rounding * (apex_size_ + magnitude(ball.centre) + ball.radius);
 }
 
-void Silhouette3D::push_entry(Slot slot) {
-  if (slot == rides_) return;
-  const std::uint8_t marks = shapes_->index.marks(slot);
-  const bool hidden = (marks & SilhouetteWorld::is_hidden) != 0;
-  if ((marks & SilhouetteWorld::is_ball) == 0) shapes_->prefetch_solid(slot);
-  push(hidden ? FrontQueue::Kind::volume : FrontQueue::Kind::object, slot, shapes_->index.ball(slot));
+void Silhouette3D::push_entry(const BallRows::Item& item, BallRows::Place place) {
+  if (item.slot == rides_) return;
+  const bool hidden = (item.marks & SilhouetteWorld::is_hidden) != 0;
+  if ((item.marks & SilhouetteWorld::is_ball) == 0) shapes_->prefetch_solid(item.slot);
+  push(hidden ? FrontQueue::Kind::volume : FrontQueue::Kind::object, place, item.ball);
 }
 
 // What lies beside the window is neither seen nor hides what is.
-void Silhouette3D::push(FrontQueue::Kind kind, Slot slot, const LooseBall& ball) {
+void Silhouette3D::push(FrontQueue::Kind kind, BallRows::Place place, const LooseBall& ball) {
   const Vec3 centre = ball.centre - volume_->apex();
   const double radius = grown(ball), key = glm::length(centre) - radius;
-  if (key <= limit_ && !mask_.beyond_window(centre, radius)) queue_.push(kind, key, slot);
+  if (key <= limit_ && !mask_.beyond_window(centre, radius)) queue_.push(kind, key, place);
 }
 
 // A volume that is open somewhere is given up: its object is read and looked at like any other, when its own depth
 // has come, so that answers do not depend on who has a volume.
-void Silhouette3D::look_at_volume(Slot slot) {
+void Silhouette3D::look_at_volume(BallRows::Place place) {
   ++answer_->work.tbv_tests;
-  const LooseBall& ball = shapes_->index.ball(slot);
+  const Slot slot = shapes_->index.item(place).slot;
+  const LooseBall& ball = shapes_->index.item(place).ball;
   if (!mask_.open_ball(ball.centre - volume_->apex(), grown(ball))) return;
   ++answer_->work.tbv_revealed;
   result_->revealed.push_back(slot);
-  push(FrontQueue::Kind::object, slot, shapes_->ball_at(slot, world_->read(slot)));
+  push(FrontQueue::Kind::object, place, shapes_->ball_at(slot, world_->read(slot)));
 }
 
-void Silhouette3D::look(Slot slot) {
-  const std::uint8_t marks = shapes_->index.marks(slot);
-  const bool has_volume = (marks & SilhouetteWorld::is_hidden) != 0;
-  const LooseBall ball = has_volume ? shapes_->ball_at(slot, pose_of(slot)) : shapes_->index.ball(slot);
+void Silhouette3D::look(BallRows::Place place) {
+  const BallRows::Item& item = shapes_->index.item(place);
+  const Slot slot = item.slot;
+  const bool has_volume = (item.marks & SilhouetteWorld::is_hidden) != 0;
+  const LooseBall ball = has_volume ? shapes_->ball_at(slot, pose_of(slot)) : item.ball;
   ++answer_->work.object_tests;
   // Most objects that are met are hidden, and most of those are found to be by the rectangle about their ball.
   const Vec3 centre = ball.centre - volume_->apex();
@@ -234,7 +232,7 @@ void Silhouette3D::look(Slot slot) {
     return;
   }
   Sliced object{slot, 0, 0.0, 0.0};
-  if (!((marks & SilhouetteWorld::is_ball) != 0 ? open_as_ball(ball, object) : open_whole(slot, object))) return;
+  if (!((item.marks & SilhouetteWorld::is_ball) != 0 ? open_as_ball(ball, object) : open_whole(slot, object))) return;
   if (object.farthest > object.nearest) {
     look_at_slices(object);
   } else {

@@ -51,11 +51,11 @@ class Silhouette3D final : public ViewAnswerer {
   void push_node(const LooseIndex::NodeId& id);
   void push_children(const LooseIndex::NodeId& id);
   void open_node(LooseIndex::NodeId id);
-  void push_entry(Slot slot);
-  void push(FrontQueue::Kind kind, Slot slot, const LooseBall& ball);
-  void look_at_volume(Slot slot);
+  void push_entry(const BallRows::Item& item, BallRows::Place place);
+  void push(FrontQueue::Kind kind, BallRows::Place place, const LooseBall& ball);
+  void look_at_volume(BallRows::Place place);
   /// First test: the object as a whole.
-  void look(Slot slot);
+  void look(BallRows::Place place);
   bool holds_viewpoint(Slot slot) const;
   bool open_whole(Slot slot, Sliced& object);
   bool open_as_ball(const LooseBall& ball, Sliced& object);

@@ -30,7 +30,7 @@ void SilhouetteTask2D::run(GridWorld& world, const View& view, Answer& answer, V
   walk_.note_nodes(draw != nullptr ? &walked_ : nullptr);
   walk_.run(
       world.silhouettes->index, world.outside, silhouettes_, answer.work, [this](Slot slot) { ask(slot); },
-      [this](Slot slot) { meet(slot); });
+      [this](const BallRows::Item& item) { meet(item); });
   const auto walked = std::chrono::steady_clock::now();
   answer.work.occluders = silhouettes_.candidates();
   answer.work.rasters = silhouettes_.sight().buffer().size();
@@ -42,10 +42,7 @@ void SilhouetteTask2D::run(GridWorld& world, const View& view, Answer& answer, V
   result.collect_us = std::chrono::duration<double, std::micro>(end - walked).count();
 }
 
-void SilhouetteTask2D::ask(Slot slot) {
-  world_->prefetch(slot);
-  world_->silhouettes->outlines.prefetch(slot);
-}
+void SilhouetteTask2D::ask(Slot slot) { world_->silhouettes->outlines.prefetch(slot); }
 
 void SilhouetteTask2D::draw_all(DrawSink& sink) const {
   const LooseIndex& index = world_->silhouettes->index;
@@ -59,22 +56,22 @@ void SilhouetteTask2D::draw_all(DrawSink& sink) const {
       *world_, *result_, [&](Slot slot) { return index.ball(slot); }, sink);
 }
 
-void SilhouetteTask2D::meet(Slot slot) {
+void SilhouetteTask2D::meet(const BallRows::Item& item) {
+  const Slot slot = item.slot;
   if (slot == rides_) return;
   const SilhouetteWorld& shapes = *world_->silhouettes;
-  const ObjectState& state = world_->objects[slot];
-  if (state.place != Place::hidden) {
-    silhouettes_.enter(slot, shapes.outlines.at(slot), state.occluder);
+  const bool occluder = (item.marks & SilhouetteWorld::is_occluder) != 0;
+  if ((item.marks & SilhouetteWorld::is_hidden) == 0) {
+    silhouettes_.enter(slot, shapes.outlines.at(slot), occluder);
     return;
   }
   ++answer_->work.tbv_tests;
-  const LooseBall& ball = shapes.index.ball(slot);
-  if (!silhouettes_.shows_disc(Vec2(ball.centre), ball.radius)) return;
+  if (!silhouettes_.shows_disc(Vec2(item.ball.centre), item.ball.radius)) return;
   ++answer_->work.tbv_revealed;
   const Pose pose = world_->read(slot);
   std::vector<Vec2>& points = points_of(result_->revealed.size());
   result_->revealed.push_back(slot);
-  silhouettes_.enter(slot, shapes.outlines.place(slot, pose, points), state.occluder);
+  silhouettes_.enter(slot, shapes.outlines.place(slot, pose, points), occluder);
 }
 
 std::vector<Vec2>& SilhouetteTask2D::points_of(std::size_t revealed) {

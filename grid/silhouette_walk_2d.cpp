@@ -38,8 +38,8 @@ void SilhouetteWalk2D::begin(const LooseIndex& index, std::span<const Slot> outs
   limit_ = sight.range() * (1.0 + 1e-9) + sight.blur();
   queue_.begin(std::min(far, sight.range()));
   for (std::size_t i = 0, tops = spots_.size(); i < tops; ++i) take(Spot(spots_[i]), index.node(spots_[i].id));
-  push_lists();
-  for (const Slot slot : outside) push(slot);
+  push_rows();
+  for (const Slot slot : outside) push(index.item(index.place_of(slot)), index.place_of(slot));
 }
 
 void SilhouetteWalk2D::take(const Spot& spot, const LooseIndex::Node& node) {
@@ -65,17 +65,17 @@ void SilhouetteWalk2D::open(std::uint32_t at, const Silhouettes2D& silhouettes, 
     return;
   }
   ++work.cells_visited;
-  add_list(index_->node(spot.id).first);
+  add_row(index_->node(spot.id).first);
   const LooseIndex::Node* children = spot.id.level > 0 ? index_->children(spot.id) : nullptr;
   const double side = index_->side(spot.id.level);
   for (int i = 0; children != nullptr && i < 4; ++i) {
     if (children[i].below != 0) take({child_of(spot.id, i), middle_of_child(spot.middle, side, i)}, children[i]);
   }
-  push_lists();
+  push_rows();
 }
 
 void SilhouetteWalk2D::gather(const LooseIndex::NodeId& id, const LooseIndex::Node& node) {
-  add_list(node.first);
+  add_row(node.first);
   if (id.level == 0) return;
   const LooseIndex::Node* children = index_->children(id);
   for (int i = 0; children != nullptr && i < 4; ++i) {
@@ -83,36 +83,27 @@ void SilhouetteWalk2D::gather(const LooseIndex::NodeId& id, const LooseIndex::No
   }
 }
 
-void SilhouetteWalk2D::add_list(Slot first) {
+// Whoever pushes a row waits for its memory, which is asked for here for several.
+void SilhouetteWalk2D::add_row(std::uint32_t first) {
   if (first == none) return;
-  __builtin_prefetch(&index_->ball(first));
-  lists_.push_back(first);
+  index_->rows().prefetch(first);
+  rows_.push_back(first);
 }
 
-/// Each step along a list waits for memory, so they are followed side by side.
-void SilhouetteWalk2D::push_lists() {
-  while (!lists_.empty()) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < lists_.size(); ++i) {
-      const Slot slot = lists_[i], next = index_->next(slot);
-      if (next != none) {
-        __builtin_prefetch(&index_->ball(next));
-        lists_[kept++] = next;
-      }
-      push(slot);
-    }
-    lists_.resize(kept);
+void SilhouetteWalk2D::push_rows() {
+  for (const std::uint32_t row : rows_) {
+    index_->each(row, [this](const BallRows::Item& item, BallRows::Place place) { push(item, place); });
   }
+  rows_.clear();
 }
 
-void SilhouetteWalk2D::push(Slot slot) {
-  const LooseBall& ball = index_->ball(slot);
-  const Vec2 d = Vec2(ball.centre) - sight_->eye();
+void SilhouetteWalk2D::push(const BallRows::Item& item, BallRows::Place place) {
+  const Vec2 d = Vec2(item.ball.centre) - sight_->eye();
   // As rounded: what is a little beyond the range is sorted out by whoever tests the object.
-  const double square = glm::dot(d, d), most = limit_ + ball.radius;
+  const double square = glm::dot(d, d), most = limit_ + item.ball.radius;
   if (!(square <= most * most)) return;
-  queue_.push_object(std::sqrt(square) - ball.radius, slot);
-  pushed_.push_back(slot);
+  queue_.push_object(std::sqrt(square) - item.ball.radius, item.slot, place);
+  pushed_.push_back(item.slot);
 }
 
 }  // namespace gridcull

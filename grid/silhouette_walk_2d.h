@@ -22,7 +22,7 @@ namespace gridcull {
 
 class SilhouetteWalk2D {
  public:
-  /// Calls meet(slot) about front to back for what hangs in the index and for `outside`, balls that it only remembers;
+  /// Calls meet(item) about front to back for what hangs in the index and for `outside`, balls that it only remembers;
   /// meet may enter objects into `silhouettes`. The order depends on distances and slots only. Some time before, `ask`
   /// is called for the slot, to ask for memory.
   template <class Ask, class Meet>
@@ -39,10 +39,10 @@ class SilhouetteWalk2D {
           open(spot, silhouettes, work);
           ask_all();
         },
-        [&](Slot slot) {
+        [&](Slot, BallRows::Place place) {
           ++work.object_tests;
-          const LooseBall& ball = index.ball(slot);
-          if (!silhouettes.hides_square(Vec2(ball.centre), ball.radius)) meet(slot);
+          const BallRows::Item& item = index.item(place);
+          if (!silhouettes.hides_square(Vec2(item.ball.centre), item.ball.radius)) meet(item);
         });
   }
 
@@ -50,7 +50,7 @@ class SilhouetteWalk2D {
   void note_nodes(WalkedNodes* nodes) { noted_ = nodes; }
 
   std::uint64_t bytes() const {
-    return queue_.bytes() + spots_.capacity() * sizeof(Spot) + (lists_.capacity() + pushed_.capacity()) * sizeof(Slot);
+    return queue_.bytes() + spots_.capacity() * sizeof(Spot) + (rows_.capacity() + pushed_.capacity()) * sizeof(Slot);
   }
 
  private:
@@ -67,9 +67,9 @@ class SilhouetteWalk2D {
   void open(std::uint32_t spot, const Silhouettes2D& silhouettes, WorkCounts& work);
   void take(const Spot& spot, const LooseIndex::Node& node);
   void gather(const LooseIndex::NodeId& id, const LooseIndex::Node& node);
-  void push(Slot slot);
-  void add_list(Slot first);
-  void push_lists();
+  void push(const BallRows::Item& item, BallRows::Place place);
+  void add_row(std::uint32_t first);
+  void push_rows();
   /// Half the side of a node's loose box.
   double reach(int level) const { return index_->side(level) + slack_; }
 
@@ -79,8 +79,8 @@ class SilhouetteWalk2D {
   double slack_ = 0.0;  // metres: of the loose boxes
   NearFirst queue_;
   std::vector<Spot> spots_;
-  std::vector<Slot> lists_;   // places in lists of the index that are to be pushed from there on
-  std::vector<Slot> pushed_;  // since the last time that memory was asked for
+  std::vector<std::uint32_t> rows_;  // of the index, to be pushed when their memory has come
+  std::vector<Slot> pushed_;         // since the last time that memory was asked for
   WalkedNodes* noted_ = nullptr;
 };
 

@@ -72,7 +72,7 @@ void SilhouetteWorld::reserve(std::size_t slots) {
   if (slots > bodies_.size()) bodies_.resize(slots);
 }
 
-void SilhouetteWorld::add(Slot slot, const Shape& shape) {
+void SilhouetteWorld::add(Slot slot, const Shape& shape, bool occluder) {
   Body& body = bodies_[slot];
   body.ball = ball_around(shape);
   const double reach = reach_of(shape);
@@ -84,7 +84,8 @@ void SilhouetteWorld::add(Slot slot, const Shape& shape) {
     body.ball = {{}, reach};
   else
     body.ball.radius *= 1.0 + 1e-8;
-  index.marks(slot) = static_cast<std::uint8_t>((body.centred ? is_centred : 0) | (body.solid ? 0 : is_ball));
+  index.set_marks(slot, static_cast<std::uint8_t>((body.centred ? is_centred : 0) | (body.solid ? 0 : is_ball) |
+                                                  (occluder ? is_occluder : 0)));
 }
 
 void SilhouetteWorld::remove(Slot slot) {

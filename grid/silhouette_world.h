@@ -26,7 +26,7 @@ class SilhouetteWorld {
 
   void reserve(std::size_t slots);
   /// Keeps what the shape needs computed once.
-  void add(Slot slot, const Shape& shape);
+  void add(Slot slot, const Shape& shape, bool occluder);
   void remove(Slot slot);
 
   /// The ball (2D: disc) that holds the object's points at this pose.
@@ -47,18 +47,19 @@ class SilhouetteWorld {
   /// The same where the index is known to have the object's own ball, and not a volume.
   bool follow_own(Slot slot, const Pose& pose) {
     if ((index.marks(slot) & is_centred) == 0) return follow(slot, pose);
-    return index.follow(slot, {pose.position, index.ball(slot).radius});
+    return index.follow(slot, pose.position);
   }
 
   /// What the walk asks of every object that it meets, as LooseIndex::marks().
   enum Mark : std::uint8_t {
     is_centred = 1,  ///< its ball's centre is its position
     is_ball = 2,     ///< 3D: tested as the ball of ball_at(), without a Solid
-    is_hidden = 4    ///< the index has its temporal bounding volume instead of its ball
+    is_hidden = 4,   ///< the index has its temporal bounding volume instead of its ball
+    is_occluder = 8
   };
   void set_hidden(Slot slot, bool on) {
-    std::uint8_t& marks = index.marks(slot);
-    marks = static_cast<std::uint8_t>(on ? marks | is_hidden : marks & ~is_hidden);
+    const std::uint8_t marks = index.marks(slot);
+    index.set_marks(slot, static_cast<std::uint8_t>(on ? marks | is_hidden : marks & ~is_hidden));
   }
 
   /// Whether somebody looked into a node that the ball reaches in this or the last frame.

@@ -18,11 +18,13 @@ struct Walk {
     if (!index.exists(id) || index.node(id).below == 0) return 0;
     const Bounds box = index.loose_box(id);
     std::uint32_t count = 0;
-    for (Slot slot = index.node(id).first; slot != none; slot = index.next(slot)) {
+    index.each(index.node(id).first, [&](const BallRows::Item& item, BallRows::Place place) {
       ++count;
-      CHECK(met.insert(slot).second);
-      inside(box, index.ball(slot));
-    }
+      CHECK(met.insert(item.slot).second);
+      CHECK(item.marks == static_cast<std::uint8_t>(item.slot));
+      CHECK(index.place_of(item.slot) == place);
+      inside(box, item.ball);
+    });
     if (id.level > 0) {
       for (int child = 0; child < (1 << index.dimension()); ++child) {
         count += visit({id.level - 1, 2 * id.x + (child & 1), 2 * id.y + (child >> 1 & 1), 2 * id.z + (child >> 2)});
@@ -48,6 +50,7 @@ void check(const LooseIndex& index, const std::map<Slot, LooseBall>& truth) {
   for (const auto& [slot, ball] : truth) {
     CHECK(walk.met.contains(slot));
     CHECK(index.ball(slot).centre == ball.centre);
+    CHECK(index.item(index.place_of(slot)).slot == slot);
   }
 }
 
@@ -59,6 +62,7 @@ void run(int dimension, const Bounds& box, double side, unsigned seed) {
   LooseIndex index(dimension, box, side);
   const std::uint32_t slots = 60;
   index.reserve(slots);
+  for (Slot slot = 0; slot < slots; slot += 2) index.set_marks(slot, static_cast<std::uint8_t>(slot));
   std::map<Slot, LooseBall> truth;
   for (int step = 0; step < 400; ++step) {
     const auto slot = static_cast<Slot>(random() % slots);
@@ -72,6 +76,7 @@ void run(int dimension, const Bounds& box, double side, unsigned seed) {
       if (random() % 8 == 0) ball.centre.y = box.min.y;
       if (!index.takes(ball)) continue;
       index.place(slot, ball);
+      index.set_marks(slot, static_cast<std::uint8_t>(slot));
       truth[slot] = ball;
     }
     if (step % 40 == 39) check(index, truth);

@@ -257,7 +257,9 @@ TEST_CASE("the walk meets front objects first, skips what is hidden, and finds t
     WorkCounts work;
     walk.run(
         index, {}, silhouettes, work, [](Slot) {},
-        [&](Slot slot) { silhouettes.enter(slot, store.at(slot), world[slot].occluder); });
+        [&](const BallRows::Item& item) {
+          silhouettes.enter(item.slot, store.at(item.slot), world[item.slot].occluder);
+        });
     met += work.object_tests;
     all += world.size();
     CHECK(listed(world, silhouettes) == seen(world, view, any_order(world, random)));
