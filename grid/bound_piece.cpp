@@ -30,7 +30,7 @@ ConvexPiece box_of(const BoundingVolume& bound) {
 
 ConvexPiece polyhedron_of(const BoundingVolume& bound) {
   ConvexPiece piece = boundary_piece(bound.boundary);
-  if (!piece.vertices.empty() && piece.inradius >= thin * piece.radius) return piece;
+  if (!piece.empty() && piece.inradius >= thin * piece.radius) return piece;
   Vec3 most(0.0);
   for (const Vec3& v : bound.boundary.vertices) most = glm::max(most, glm::abs(v - bound.boundary.vertices[0]));
   return boundary_piece(grown_boundary(bound, 2.0 * thin * std::max({most.x, most.y, most.z})));
@@ -39,12 +39,12 @@ ConvexPiece polyhedron_of(const BoundingVolume& bound) {
 ConvexPiece hull_of(const Shape& shape) {
   if (const auto* prism = std::get_if<Prism>(&shape)) {
     ConvexPiece piece = prism_piece(hull_of_outline(prism->vertices), 0.0, prism->height, Rounding::outward);
-    if (!piece.vertices.empty()) return piece;
+    if (!piece.empty()) return piece;
   }
   std::vector<Vec3> points;
   for_each_local_point(shape, [&](const Vec3& p) { points.push_back(p); });
   ConvexPiece piece = hull_piece(points, Rounding::outward);
-  if (!piece.vertices.empty() && piece.inradius >= thin * piece.radius) return piece;
+  if (!piece.empty() && piece.inradius >= thin * piece.radius) return piece;
   return polyhedron_of(bound_of(shape, BoundKind::dop26));
 }
 

@@ -16,10 +16,6 @@ namespace {
 
 using Loop = std::vector<std::uint8_t>;
 
-/// Vertices by bits; each face's corners counter-clockwise from outside.
-constexpr std::array<std::array<std::uint8_t, 4>, 6> box_faces{
-    {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-
 /// Newell's normal: twice the area, along the outward normal.
 Vec3 area_normal(const std::vector<Vec3>& points, const Loop& loop) {
   Vec3 sum(0.0);
@@ -37,16 +33,17 @@ void add_face(ConvexPiece& piece, const Loop& loop) {
   piece.loops.insert(piece.loops.end(), loop.begin(), loop.end());
   const Vec3 normal = area_normal(piece.vertices, loop);
   const double length = glm::length(normal);
-  if (length > 0.0) face.normal = normal / length;
+  if (length > 0.0) face.plane.normal = normal / length;
   piece.faces.push_back(face);
 }
 
 /// Supporting planes: no vertex lies beyond one by more than rounding.
 void fit_planes(ConvexPiece& piece) {
   for (ConvexPiece::Face& face : piece.faces) {
-    face.offset = -std::numeric_limits<double>::infinity();
+    auto& [normal, offset] = face.plane;
+    offset = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < face.count; ++i) {
-      face.offset = std::max(face.offset, glm::dot(face.normal, piece.vertices[piece.loops[face.first + i]]));
+      offset = std::max(offset, glm::dot(normal, piece.vertices[piece.loops[face.first + i]]));
     }
   }
 }
@@ -71,7 +68,9 @@ void add_edges(ConvexPiece& piece) {
 double least_distance(const ConvexPiece& piece) {
   double least = std::numeric_limits<double>::infinity();
   if (piece.kind != ConvexPiece::Kind::flat) {
-    for (const auto& face : piece.faces) least = std::min(least, face.offset - glm::dot(face.normal, piece.centre));
+    for (const auto& [plane, first, count] : piece.faces) {
+      least = std::min(least, plane.offset - glm::dot(plane.normal, piece.centre));
+    }
     return least;
   }
   for (const auto& edge : piece.edges) {
@@ -83,26 +82,38 @@ double least_distance(const ConvexPiece& piece) {
   return least;
 }
 
-/// Scales about the centre. Half of the gap that the scaling makes is kept as slack, the other half pays for the
-/// rounding of `centre`, of the planes and of the scaling itself; that it can is checked.
-void scale(ConvexPiece& piece, Rounding rounding) {
-  const double shrink = piece.kind == ConvexPiece::Kind::flat ? flat_shrink : solid_shrink;
-  piece.inradius = least_distance(piece);
+/// Half of the gap that scaling by `shrink` makes is kept as slack, the other half pays for the rounding of `centre`,
+/// of the planes and of the scaling itself; that it can is checked. `size`: greatest distance of a vertex from the
+/// origin.
+bool set_slack(ConvexPiece& piece, double shrink, double size) {
   piece.slack = 0.5 * shrink * piece.inradius;
-  double size = 0.0;
-  for (const Vec3& v : piece.vertices) size = std::max(size, glm::length(v));
   // Planes and distances of coordinates up to `size`: some ten roundings of 2^-53 each.
-  if (!(piece.slack > 0x1p-47 * size)) {
-    piece = ConvexPiece{};
-    return;
-  }
-  const double sign = rounding == Rounding::inward ? -shrink : shrink;
-  for (Vec3& v : piece.vertices) v += sign * (v - piece.centre);
-  for (auto& face : piece.faces) face.offset += sign * (face.offset - glm::dot(face.normal, piece.centre));
-  for (const Vec3& v : piece.vertices) {
+  if (piece.slack > 0x1p-47 * size) return true;
+  piece = ConvexPiece{};
+  return false;
+}
+
+void set_reach(ConvexPiece& piece) {
+  for (std::size_t i = 0; i < piece.vertex_count(); ++i) {
+    const Vec3 v = piece.vertex(i);
     piece.reach = std::max(piece.reach, glm::length(v) * (1.0 + 0x1p-40));
     piece.radius = std::max(piece.radius, glm::length(v - piece.centre) * (1.0 + 0x1p-40));
   }
+}
+
+/// Scales about the centre.
+void scale(ConvexPiece& piece, Rounding rounding) {
+  const double shrink = piece.kind == ConvexPiece::Kind::flat ? flat_shrink : solid_shrink;
+  piece.inradius = least_distance(piece);
+  double size = 0.0;
+  for (const Vec3& v : piece.vertices) size = std::max(size, glm::length(v));
+  if (!set_slack(piece, shrink, size)) return;
+  const double sign = rounding == Rounding::inward ? -shrink : shrink;
+  for (Vec3& v : piece.vertices) v += sign * (v - piece.centre);
+  for (auto& [plane, first, count] : piece.faces) {
+    plane.offset += sign * (plane.offset - glm::dot(plane.normal, piece.centre));
+  }
+  set_reach(piece);
 }
 
 void finish(ConvexPiece& piece, Rounding rounding) {
@@ -209,14 +220,11 @@ std::uint64_t ConvexPiece::bytes() const {
 ConvexPiece box_piece(const Vec3& centre, const Vec3& half, Rounding rounding) {
   ConvexPiece piece;
   piece.kind = ConvexPiece::Kind::box;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 sign((i & 1) ? 1.0 : -1.0, (i & 2) ? 1.0 : -1.0, (i & 4) ? 1.0 : -1.0);
-    piece.vertices.push_back(centre + sign * half);
-  }
-  for (const auto& face : box_faces) add_face(piece, Loop(face.begin(), face.end()));
-  finish(piece, rounding);
   piece.centre = centre;
+  piece.inradius = std::min({half.x, half.y, half.z});
+  if (!set_slack(piece, solid_shrink, glm::length(glm::abs(centre) + half))) return piece;
   piece.half = half + (rounding == Rounding::inward ? -solid_shrink : solid_shrink) * half;
+  set_reach(piece);
   return piece;
 }
 
@@ -277,7 +285,7 @@ ConvexPiece boundary_piece(const ConvexBoundary& boundary) {
       loop.push_back(static_cast<std::uint8_t>(boundary.loops[face.first + i]));
     }
     add_face(piece, loop);
-    piece.faces.back().normal = face.normal;
+    piece.faces.back().plane.normal = face.normal;
   }
   finish(piece, Rounding::outward);
   return piece;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gridcull/core/convex_boundary.h"
+#include "gridcull/grid/box_topology.h"
 
 namespace gridcull {
 
@@ -22,32 +23,60 @@ struct ConvexPiece {
   static constexpr std::size_t max_vertices = 64, max_faces = 64;
 
   enum class Kind : std::uint8_t {
-    box,    ///< axes are the local ones; vertices by bits: 1 = +x, 2 = +y, 4 = +z; faces and edges are implied
+    box,    ///< axes are the local ones; told by `centre` and `half` alone
     solid,  ///< any polyhedron
-    flat    ///< one polygon: faces[0] seen from its normal's side, faces[1] from the other
+    flat    ///< one polygon: face 0 seen from its normal's side, face 1 from the other
   };
-  /// Plane dot(normal, p) = offset, |normal| = 1 up to rounding, outward; its loop is loops[first .. first + count).
-  struct Face {
+  /// dot(normal, p) = offset, |normal| = 1 up to rounding, outward.
+  struct Plane {
     Vec3 normal{0.0};
     double offset = 0.0;
+  };
+  /// Its loop is loops[first .. first + count).
+  struct Face {
+    Plane plane{};
     std::uint16_t first = 0, count = 0;
   };
-  /// Runs counter-clockwise about `left` and clockwise about `right`, both seen from outside.
-  struct Edge {
-    std::uint8_t from, to, left, right;
-  };
+  using Edge = box_topology::Edge;
 
   Kind kind = Kind::solid;
-  std::vector<Vec3> vertices;       ///< metres; at most max_vertices
-  std::vector<Face> faces;          ///< at most max_faces
-  std::vector<std::uint8_t> loops;  ///< vertex numbers, counter-clockwise seen from outside
-  std::vector<Edge> edges;
   Vec3 centre{0.0};       ///< a point well inside
   Vec3 half{0.0};         ///< box: half its sizes
   double inradius = 0.0;  ///< no face plane (flat: edge) is nearer to `centre`; metres
   double slack = 0.0;     ///< see the claim; metres
   double radius = 0.0;    ///< greatest distance of a vertex from `centre`, rounded up
   double reach = 0.0;     ///< greatest distance of a vertex from the local origin, rounded up
+  // Empty for boxes, which are met most often: what a view asks of a box lies in two cache lines.
+  std::vector<Vec3> vertices;       ///< metres; at most max_vertices
+  std::vector<Face> faces;          ///< at most max_faces
+  std::vector<std::uint8_t> loops;  ///< vertex numbers, counter-clockwise seen from outside
+  std::vector<Edge> edges;
+
+  /// There is no piece.
+  bool empty() const { return kind != Kind::box && vertices.empty(); }
+  std::size_t vertex_count() const { return kind == Kind::box ? 8 : vertices.size(); }
+  /// Of a box by bits: 1 = +x, 2 = +y, 4 = +z.
+  Vec3 vertex(std::size_t i) const {
+    if (kind != Kind::box) return vertices[i];
+    return {(i & 1) != 0 ? centre.x + half.x : centre.x - half.x, (i & 2) != 0 ? centre.y + half.y : centre.y - half.y,
+            (i & 4) != 0 ? centre.z + half.z : centre.z - half.z};
+  }
+  std::size_t face_count() const { return kind == Kind::box ? 6 : faces.size(); }
+  Plane plane(std::size_t face) const {
+    if (kind != Kind::box) return faces[face].plane;
+    const auto axis = static_cast<int>(face / 2);
+    Plane plane{Vec3(0.0), half[axis] + (face % 2 == 0 ? -centre[axis] : centre[axis])};
+    plane.normal[axis] = face % 2 == 0 ? -1.0 : 1.0;
+    return plane;
+  }
+  /// Vertex numbers of a face.
+  std::span<const std::uint8_t> loop(std::size_t face) const {
+    if (kind == Kind::box) return box_topology::faces[face];
+    return {loops.data() + faces[face].first, faces[face].count};
+  }
+  std::span<const Edge> all_edges() const {
+    return kind == Kind::box ? std::span<const Edge>(box_topology::edges) : std::span<const Edge>(edges);
+  }
 
   std::uint64_t bytes() const;
 };

@@ -163,7 +163,7 @@ std::vector<MergedFace> merge_static_faces(std::span<const PlacedSource> sources
   for (const Face& face : faces) {
     if (face.owners.size() < 2) continue;
     MergedFace merged{flat_piece(face.polygon), face.owners};
-    if (!merged.piece.vertices.empty()) out.push_back(std::move(merged));
+    if (!merged.piece.empty()) out.push_back(std::move(merged));
   }
   return out;
 }

@@ -16,7 +16,7 @@ namespace {
 
 /// Dropped where it could not be built (too thin for its coordinates): an under-estimate.
 void add(OccluderPieces& out, ConvexPiece piece) {
-  if (!piece.vertices.empty()) out.pieces.push_back(std::move(piece));
+  if (!piece.empty()) out.pieces.push_back(std::move(piece));
 }
 
 double area_of(const FlatPolygon& polygon) {
@@ -47,14 +47,14 @@ ConvexPiece box_about(const std::vector<Vec3>& points) {
 /// The hull where it is small, else the box: never less than all points.
 ConvexPiece hull_about(const std::vector<Vec3>& points) {
   ConvexPiece hull = hull_piece(points, Rounding::outward);
-  return hull.vertices.empty() ? box_about(points) : hull;
+  return hull.empty() ? box_about(points) : hull;
 }
 
 ConvexPiece outer_prism(const Prism& prism) {
   const std::vector<Vec2> outline = hull_of_outline(prism.vertices);
   if (outline.size() <= 16) {
     ConvexPiece piece = prism_piece(outline, 0.0, prism.height, Rounding::outward);
-    if (!piece.vertices.empty()) return piece;
+    if (!piece.empty()) return piece;
   }
   std::vector<Vec3> points;
   for (const Vec2& p : prism.vertices) points.insert(points.end(), {{p, 0.0}, {p, prism.height}});

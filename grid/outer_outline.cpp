@@ -37,13 +37,13 @@ double longest(const PlacedPiece& hull) { return sum_of_magnitudes(hull.frame.or
 double view_error(const PlacedPiece& hull) { return 0x1p-47 * longest(hull); }
 
 Vec3 world_vertex(const PlacedPiece& hull, std::size_t i) {
-  return hull.frame.origin + hull.frame.rotation * hull.piece.vertices[i];
+  return hull.frame.origin + hull.frame.rotation * hull.piece.vertex(i);
 }
 
 /// (b) of the claim.
 bool holds_all(const PlacedPiece& hull, const Outline& out) {
   std::array<Vec3, ConvexPiece::max_vertices> points;
-  const std::size_t n = hull.piece.vertices.size();
+  const std::size_t n = hull.piece.vertex_count();
   for (std::size_t i = 0; i < n; ++i) points[i] = world_vertex(hull, i);
   for (int i = 0; i < out.count; ++i) {
     const Vec3& a = out.rays[static_cast<std::size_t>(i)];
@@ -60,7 +60,7 @@ bool holds_all(const PlacedPiece& hull, const Outline& out) {
 }
 
 bool can_be_seen_from(const PlacedPiece& hull) {
-  return !hull.piece.vertices.empty() && sight_blur(hull.piece, hull.frame) <= 0.5 * hull.piece.slack;
+  return !hull.piece.empty() && sight_blur(hull.piece, hull.frame) <= 0.5 * hull.piece.slack;
 }
 
 /// (a)'s demand, with `height` for h.
@@ -117,26 +117,26 @@ void clip_edge(const Vec3& a, const Vec3& b, double at_a, double at_b, double lo
 }
 
 bool sees_face(const PlacedPiece& hull, std::size_t face) {
-  const auto& f = hull.piece.faces[face];
-  return glm::dot(f.normal, hull.frame.apex) - f.offset > -view_error(hull);
+  const ConvexPiece::Plane plane = hull.piece.plane(face);
+  return glm::dot(plane.normal, hull.frame.apex) - plane.offset > -view_error(hull);
 }
 
 /// Vertices and cut edges of faces that see the viewpoint or may do so.
 void slab_points(const PlacedPiece& hull, const Vec3& m, double low, double high, SlabPoints& out) {
   std::uint64_t seen = 0, used = 0;
-  for (std::size_t f = 0; f < hull.piece.faces.size(); ++f) seen |= std::uint64_t{sees_face(hull, f)} << f;
+  for (std::size_t f = 0; f < hull.piece.face_count(); ++f) seen |= std::uint64_t{sees_face(hull, f)} << f;
   std::array<Vec3, ConvexPiece::max_vertices> points;
   std::array<double, ConvexPiece::max_vertices> at;
-  for (std::size_t i = 0; i < hull.piece.vertices.size(); ++i) {
+  for (std::size_t i = 0; i < hull.piece.vertex_count(); ++i) {
     points[i] = world_vertex(hull, i);
     at[i] = glm::dot(m, points[i]);
   }
-  for (const auto& edge : hull.piece.edges) {
+  for (const auto& edge : hull.piece.all_edges()) {
     if (((seen >> edge.left | seen >> edge.right) & 1) == 0) continue;
     used |= std::uint64_t{1} << edge.from | std::uint64_t{1} << edge.to;
     clip_edge(points[edge.from], points[edge.to], at[edge.from], at[edge.to], low, high, out);
   }
-  for (std::size_t i = 0; i < hull.piece.vertices.size(); ++i) {
+  for (std::size_t i = 0; i < hull.piece.vertex_count(); ++i) {
     if ((used >> i & 1) != 0 && low <= at[i] && at[i] <= high) out.add(points[i]);
   }
 }

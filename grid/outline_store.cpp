@@ -7,42 +7,58 @@ void OutlineStore::reserve(std::size_t slots) {
   if (slots > bodies_.size()) bodies_.resize(slots);
 }
 
+std::shared_ptr<const OutlineStore::Kept> OutlineStore::kept_for(const Shape& shape) {
+  const auto* rectangle = std::get_if<Rectangle>(&shape);
+  if (rectangle == nullptr) return std::make_shared<const Kept>(Kept{Outline2D(shape)});
+  const Size size{rectangle->size.x, rectangle->size.y};
+  std::weak_ptr<const Kept>& known = rectangles_[size];
+  std::shared_ptr<const Kept> kept = known.lock();
+  if (!kept) known = kept = std::make_shared<const Kept>(Kept{Outline2D(shape), size});
+  return kept;
+}
+
 void OutlineStore::add(Slot slot, const Shape& shape) {
   Body& body = bodies_[slot];
   body = {};
   if (const auto* disc = std::get_if<Disc>(&shape)) {
     body.placed.radius = disc->radius;
   } else {
-    body.detail = std::make_unique<Detail>(shape);
+    body.kept = kept_for(shape);
+    body.points = std::make_unique<Vec2[]>(body.kept->outline.points().size());
   }
+}
+
+void OutlineStore::remove(Slot slot) {
+  const std::shared_ptr<const Kept>& kept = bodies_[slot].kept;
+  if (kept.use_count() == 1) rectangles_.erase(kept->size);
+  bodies_[slot] = {};
 }
 
 void OutlineStore::place(Slot slot, const Pose& pose) {
   Body& body = bodies_[slot];
-  if (!body.detail) {
+  if (!body.kept) {
     body.placed.centre = Vec2(pose.position);
     return;
   }
-  Detail& detail = *body.detail;
-  detail.outline.place(pose, detail.points.data());
-  body.placed = placed(detail.outline, pose, detail.points.data());
+  body.kept->outline.place(pose, body.points.get());
+  body.placed = placed(body.kept->outline, pose, body.points.get());
 }
 
 Placed2D OutlineStore::place(Slot slot, const Pose& pose, std::vector<Vec2>& points) const {
   const Body& body = bodies_[slot];
-  if (!body.detail) return {nullptr, Vec2(pose.position), body.placed.radius, nullptr};
-  const Outline2D& outline = body.detail->outline;
-  points.resize(outline.points().size());
-  outline.place(pose, points.data());
-  return placed(outline, pose, points.data());
+  if (!body.kept) return {nullptr, Vec2(pose.position), body.placed.radius, nullptr};
+  points.resize(body.kept->outline.points().size());
+  body.kept->outline.place(pose, points.data());
+  return placed(body.kept->outline, pose, points.data());
 }
 
 std::uint64_t OutlineStore::bytes() const {
   std::uint64_t bytes = bodies_.capacity() * sizeof(Body);
   for (const Body& body : bodies_) {
-    if (body.detail) {
-      bytes += sizeof(Detail) + body.detail->outline.bytes() + body.detail->points.capacity() * sizeof(Vec2);
-    }
+    if (!body.kept) continue;
+    const std::uint64_t shared = sizeof(Kept) + body.kept->outline.bytes();
+    bytes +=
+        body.kept->outline.points().size() * sizeof(Vec2) + shared / static_cast<std::uint64_t>(body.kept.use_count());
   }
   return bytes;
 }

@@ -2,7 +2,9 @@
 // are answered.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -14,7 +16,7 @@ class OutlineStore {
  public:
   void reserve(std::size_t slots);
   void add(Slot slot, const Shape& shape);
-  void remove(Slot slot) { bodies_[slot] = {}; }
+  void remove(Slot slot);
 
   /// The object stands at `pose` from now on.
   void place(Slot slot, const Pose& pose);
@@ -28,16 +30,21 @@ class OutlineStore {
   std::uint64_t bytes() const;
 
  private:
-  struct Detail {
-    explicit Detail(const Shape& shape) : outline(shape), points(outline.points().size()) {}
+  using Size = std::array<double, 2>;
+  struct Kept {
     Outline2D outline;
-    std::vector<Vec2> points;
+    Size size{};  ///< of a rectangle: all of that size share this
   };
   struct Body {
     Placed2D placed{};
-    std::unique_ptr<Detail> detail{};  ///< nullptr: a disc
+    std::shared_ptr<const Kept> kept{};  ///< nullptr: a disc
+    std::unique_ptr<Vec2[]> points{};    ///< of the outline, in the world
   };
+  std::shared_ptr<const Kept> kept_for(const Shape& shape);
+
   std::vector<Body> bodies_;
+  /// Of rectangles one for all of a size: those of a town's cars stay in the cache.
+  std::map<Size, std::weak_ptr<const Kept>> rectangles_;
 };
 
 }  // namespace gridcull

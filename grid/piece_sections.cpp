@@ -58,11 +58,16 @@ struct FrontFace {
   std::size_t count;
 };
 
-void load(const ConvexPiece& piece, const Vec3& apex, const ConvexPiece::Face& face, FrontFace& out) {
-  out.normal = face.normal;
-  out.height = glm::dot(face.normal, apex) - face.offset;
-  out.count = face.count;
-  for (std::size_t i = 0; i < out.count; ++i) out.corner[i] = piece.vertices[piece.loops[face.first + i]] - apex;
+/// False where the viewpoint is not in front of it.
+bool load(const ConvexPiece& piece, const Vec3& apex, std::size_t face, FrontFace& out) {
+  const ConvexPiece::Plane plane = piece.plane(face);
+  out.normal = plane.normal;
+  out.height = glm::dot(plane.normal, apex) - plane.offset;
+  if (!(out.height > 0.0)) return false;
+  const std::span<const std::uint8_t> loop = piece.loop(face);
+  out.count = loop.size();
+  for (std::size_t i = 0; i < out.count; ++i) out.corner[i] = piece.vertex(loop[i]) - apex;
+  return true;
 }
 
 /// Corners within k and points of edges at distance k.
@@ -142,7 +147,7 @@ class Sections {
       add_circle(face, k, 0x1p-44 * (k + placed_.piece.reach), points);
     });
     if (points.count < 3) return false;
-    const Vec3 axis = -placed_.piece.faces[static_cast<std::size_t>(loop_.highest)].normal;
+    const Vec3 axis = -placed_.piece.plane(static_cast<std::size_t>(loop_.highest)).normal;
     if (!angular_hull({points.points.data(), points.count}, axis, out.outline) || out.outline.count < 3) return false;
     double square = 0.0;
     for (int i = 0; i < out.outline.count; ++i) {
@@ -158,9 +163,8 @@ class Sections {
   template <class F>
   void for_front_faces(const F& f) const {
     FrontFace front;
-    for (const auto& face : placed_.piece.faces) {
-      load(placed_.piece, placed_.frame.apex, face, front);
-      if (front.height > 0.0) f(front);
+    for (std::size_t face = 0, faces = placed_.piece.face_count(); face < faces; ++face) {
+      if (load(placed_.piece, placed_.frame.apex, face, front)) f(front);
     }
   }
 

@@ -76,7 +76,7 @@ bool silhouette(const PlacedPiece& placed, Outline& out) {
   out.count = loop.count;
   for (int i = 0; i < loop.count; ++i) {
     out.rays[static_cast<std::size_t>(i)] =
-        placed.frame.origin + placed.frame.rotation * piece.vertices[loop.vertex[static_cast<std::size_t>(i)]];
+        placed.frame.origin + placed.frame.rotation * piece.vertex(loop.vertex[static_cast<std::size_t>(i)]);
   }
   out.nearest = loop.height;
   out.farthest = greatest_length(out);

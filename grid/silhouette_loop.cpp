@@ -12,30 +12,16 @@ struct BoxLoop {
   std::uint8_t count = 0;
 };
 
-/// Corner pairs of each face in the order of box_piece(), counter-clockwise from outside.
-constexpr std::array<std::array<std::uint8_t, 4>, 6> box_faces{
-    {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-
 /// Region number: sum of 3^k (1 + sign_k), sign_k = -1, 0, 1 as the viewpoint lies below, within or above along k.
 constexpr BoxLoop box_loop(int region) {
-  std::array<int, 3> sign{region % 3 - 1, region / 3 % 3 - 1, region / 9 - 1};
+  const std::array<int, 3> sign{region % 3 - 1, region / 3 % 3 - 1, region / 9 - 1};
+  const auto seen = [&](std::size_t face) { return sign[face / 2] == (face % 2 == 0 ? -1 : 1); };
   std::array<int, 8> next{-1, -1, -1, -1, -1, -1, -1, -1};
-  // Borders of the seen faces, walked backwards; what is walked both ways lies between two seen faces.
-  for (int f = 0; f < 6; ++f) {
-    if (sign[static_cast<std::size_t>(f / 2)] != (f % 2 == 0 ? -1 : 1)) continue;
-    for (int i = 0; i < 4; ++i) {
-      const int a = box_faces[static_cast<std::size_t>(f)][static_cast<std::size_t>(i)];
-      const int b = box_faces[static_cast<std::size_t>(f)][static_cast<std::size_t>((i + 1) % 4)];
-      bool shared = false;
-      for (int g = 0; g < 6; ++g) {
-        if (g == f || sign[static_cast<std::size_t>(g / 2)] != (g % 2 == 0 ? -1 : 1)) continue;
-        for (int k = 0; k < 4; ++k) {
-          shared = shared || (box_faces[static_cast<std::size_t>(g)][static_cast<std::size_t>(k)] == b &&
-                              box_faces[static_cast<std::size_t>(g)][static_cast<std::size_t>((k + 1) % 4)] == a);
-        }
-      }
-      if (!shared) next[static_cast<std::size_t>(b)] = a;
-    }
+  // Edges between a seen face and one that is not, with the seen face on the right of the way.
+  for (const box_topology::Edge& edge : box_topology::edges) {
+    if (seen(edge.left) == seen(edge.right)) continue;
+    const std::uint8_t a = seen(edge.left) ? edge.to : edge.from, b = seen(edge.left) ? edge.from : edge.to;
+    next[a] = b;
   }
   BoxLoop loop;
   int start = 0;
@@ -84,7 +70,8 @@ void find_loop(const ConvexPiece& piece, const Vec3& apex, VertexLoop& out) {
   out.height = 0.0;
   out.doubt = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < piece.faces.size(); ++f) {
-    const double height = glm::dot(piece.faces[f].normal, apex) - piece.faces[f].offset;
+    const ConvexPiece::Plane& plane = piece.faces[f].plane;
+    const double height = glm::dot(plane.normal, apex) - plane.offset;
     out.doubt = std::min(out.doubt, std::fabs(height));
     if (!(height > 0.0)) continue;
     seen |= std::uint64_t{1} << f;

@@ -22,6 +22,12 @@ LooseBall ball_around(const Shape& shape) {
 
 std::array<double, 3> key_of(const Vec3& size) { return {size.x, size.y, size.z}; }
 
+std::vector<Vec3> vertices_of(const ConvexPiece& piece) {
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < piece.vertex_count(); ++i) points.push_back(piece.vertex(i));
+  return points;
+}
+
 /// The box around these points, or as good as around them.
 void set_box(SilhouetteWorld::Solid& solid, const std::vector<Vec3>& points, double reach) {
   Bounds box;
@@ -46,8 +52,8 @@ std::unique_ptr<SilhouetteWorld::Solid> SilhouetteWorld::make_solid(const Shape&
   } else {
     solid->outer = bound_piece(shape, *bound_);
     // Without a piece the object counts as visible unless its box is hidden.
-    const bool missing = solid->outer.vertices.empty();
-    set_box(*solid, missing ? bound_of(shape, BoundKind::box).boundary.vertices : solid->outer.vertices,
+    const bool missing = solid->outer.empty();
+    set_box(*solid, missing ? bound_of(shape, BoundKind::box).boundary.vertices : vertices_of(solid->outer),
             reach_of(shape));
   }
   return solid;

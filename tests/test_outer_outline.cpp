@@ -117,7 +117,7 @@ TEST_CASE("outlines and slices of bounding volumes hold the object") {
       CAPTURE(seed);
       const Placement placed = random_placement(seed);
       const ConvexPiece piece = bound_piece(placed.shape, kind);
-      REQUIRE(!piece.vertices.empty());
+      REQUIRE(!piece.empty());
       check(placed, piece, random, counts);
     }
     MESSAGE(name_of(kind) << ": " << counts.outlines << " outlines, " << counts.unknown << " unknown");
@@ -130,15 +130,15 @@ TEST_CASE("pieces of bounding volumes: boxes stay boxes, large hulls become 26-D
   for (const BoundKind kind :
        {BoundKind::box, BoundKind::obb, BoundKind::dop14, BoundKind::dop18, BoundKind::dop26, BoundKind::hull}) {
     CAPTURE(name_of(kind));
-    CHECK(bound_piece(Cuboid{{2, 3, 4}}, kind).faces.size() == 6);
-    CHECK(bound_piece(Cuboid{{2, 3, 4}}, kind).vertices.size() == 8);
+    CHECK(bound_piece(Cuboid{{2, 3, 4}}, kind).face_count() == 6);
+    CHECK(bound_piece(Cuboid{{2, 3, 4}}, kind).vertex_count() == 8);
     const Faces triangle{{{1, 1, 1}, {4, 1, 1}, {1, 3, 1}}, {{0, 1, 2}}};
     const ConvexPiece flat = bound_piece(triangle, kind);
-    REQUIRE(!flat.vertices.empty());
+    REQUIRE(!flat.empty());
     CHECK(flat.inradius > 1e-6);
     CHECK(flat.inradius < 1e-3);
     const bool round = kind == BoundKind::hull;
-    CHECK(bound_piece(Sphere{2.0}, kind).vertices.empty() == round);
+    CHECK(bound_piece(Sphere{2.0}, kind).empty() == round);
   }
   Convex many;
   std::mt19937_64 random(1);
@@ -147,5 +147,5 @@ TEST_CASE("pieces of bounding volumes: boxes stay boxes, large hulls become 26-D
     many.vertices.push_back(glm::normalize(Vec3(u(), u(), u())));
   }
   CHECK(bound_piece(many, BoundKind::hull).faces.size() == 26);
-  CHECK(bound_piece(many, BoundKind::sphere).vertices.empty());
+  CHECK(bound_piece(many, BoundKind::sphere).empty());
 }
