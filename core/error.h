@@ -14,6 +14,7 @@ enum class ErrorCode {
   unknown_object,  ///< an object id that is not there
   sequence,        ///< calls or messages out of order
   limit,           ///< more memory, objects or sessions than allowed
+  forbidden,       ///< a token that is missing or wrong
   io,              ///< a file that cannot be opened, read or written
   usage,           ///< a command line or option that makes no sense
   internal         ///< a broken promise of the library itself

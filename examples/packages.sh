@@ -2,7 +2,7 @@
 # tests/run.sh.
 
 packages_program="build-essential cmake ninja-build libglm-dev libtbb-dev nlohmann-json3-dev libcli11-dev
-  libpugixml-dev zlib1g-dev libboost-dev libembree-dev"
+  libpugixml-dev zlib1g-dev libboost-dev libembree-dev prometheus-cpp-dev"
 packages_tests="$packages_program git doctest-dev libcgal-dev gnuplot-nox"
 
 # need PACKAGE...: installs what is missing as root; otherwise names it in one line and stops with status 2.

@@ -56,26 +56,6 @@ View find_view(const World& world, const ExplainOptions& options) {
                      std::to_string(options.viewer));
 }
 
-nlohmann::ordered_json coordinates(const Vec3& p, int dimension) {
-  nlohmann::ordered_json json{p.x, p.y};
-  if (dimension == 3) json.push_back(p.z);
-  return json;
-}
-
-std::string explained_text(const Explanation& explanation, int dimension) {
-  nlohmann::ordered_json json{{"type", "explained"}, {"verdict", verdict_text(explanation.verdict)}};
-  json["by"] = explanation.by;
-  json["cells"] = nlohmann::ordered_json::array();
-  for (const Cell& cell : explanation.cells) {
-    nlohmann::ordered_json at{cell.x, cell.y};
-    if (dimension == 3) at.push_back(cell.z);
-    json["cells"].push_back(std::move(at));
-  }
-  json["sees"] = nlohmann::ordered_json::array();
-  if (explanation.sees) json["sees"].push_back(coordinates(*explanation.sees, dimension));
-  return json.dump() + "\n";
-}
-
 int explain_command(const ExplainOptions& options) {
   const PreparedWorld prepared = prepare_world(options.world);
   const int dimension = prepared.scene.dimension;
@@ -89,7 +69,7 @@ int explain_command(const ExplainOptions& options) {
                        std::to_string(options.object));
   }
   const Explanation explanation = explain(world.objects(), prepared.lattice, view, options.object, options.rays);
-  std::fputs(explained_text(explanation, dimension).c_str(), stdout);
+  std::fputs((explained_json(explanation, dimension).dump() + "\n").c_str(), stdout);
   return 0;
 }
 

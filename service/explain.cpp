@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include <nlohmann/json.hpp>
+
 #include "gridcull/core/error.h"
 #include "gridcull/core/exact.h"
 #include "gridcull/grid/cover.h"
@@ -141,6 +143,12 @@ class Inquiry {
   const Object& target_;
 };
 
+nlohmann::ordered_json coordinates(const Vec3& p, int dimension) {
+  nlohmann::ordered_json json{p.x, p.y};
+  if (dimension == 3) json.push_back(p.z);
+  return json;
+}
+
 }  // namespace
 
 std::string verdict_text(Explanation::Verdict verdict) {
@@ -151,6 +159,20 @@ std::string verdict_text(Explanation::Verdict verdict) {
     case Explanation::Verdict::outside: break;
   }
   return "outside";
+}
+
+nlohmann::ordered_json explained_json(const Explanation& explanation, int dimension) {
+  nlohmann::ordered_json json{{"type", "explained"}, {"verdict", verdict_text(explanation.verdict)}};
+  json["by"] = explanation.by;
+  json["cells"] = nlohmann::ordered_json::array();
+  for (const Cell& cell : explanation.cells) {
+    nlohmann::ordered_json at{cell.x, cell.y};
+    if (dimension == 3) at.push_back(cell.z);
+    json["cells"].push_back(std::move(at));
+  }
+  json["sees"] = nlohmann::ordered_json::array();
+  if (explanation.sees) json["sees"].push_back(coordinates(*explanation.sees, dimension));
+  return json;
 }
 
 Explanation explain(std::span<const Object> world, const Lattice& lattice, const View& view, ObjectId object,

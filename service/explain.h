@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "gridcull/core/object.h"
 #include "gridcull/core/view.h"
 #include "gridcull/grid/lattice.h"
@@ -27,6 +29,9 @@ struct Explanation {
 
 /// "visible", "hidden", "outside", "contains_viewer".
 std::string verdict_text(Explanation::Verdict verdict);
+
+/// The wire's message of type "explained".
+nlohmann::ordered_json explained_json(const Explanation& explanation, int dimension);
 
 /// By the exact reference, whatever the method says. `rays`: of the 3D reference (core/exact.h). Throws
 /// Error(unknown_object), and what the reference throws.

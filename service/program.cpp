@@ -74,6 +74,9 @@ int run_program(int argc, const char* const* argv) {
   add_methods_command(app, action);
   add_bake_command(app, action);
   add_bench_command(app, action);
+#ifdef GRIDCULL_WITH_SERVER
+  add_serve_command(app, action);
+#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -83,7 +86,7 @@ int run_program(int argc, const char* const* argv) {
   }
   if (!action)
     return refuse(
-        "a command is missing: run, check, info, explain, make, import, methods, bake or bench (see gridcull --help)");
+        "a command is missing: run, check, info, explain, make, import, methods, bake, bench or serve (see gridcull --help)");
   return perform(action);
 }
 

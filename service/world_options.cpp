@@ -125,7 +125,11 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
 
 PreparedWorld prepare_world(const WorldOptions& options, bool always_survey) {
   check_options(options);
-  Scene scene = read_scene(options.scene);
+  return prepare_scene(options, read_scene(options.scene), always_survey);
+}
+
+PreparedWorld prepare_scene(const WorldOptions& options, Scene scene, bool always_survey) {
+  check_options(options);
   const std::optional<double> cell = options.cell ? options.cell : scene.cell;
   std::optional<Survey> survey;
   if (always_survey || !scene.bounds || !cell) survey = survey_world(scene, options.frames);

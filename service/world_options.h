@@ -67,6 +67,9 @@ struct PreparedWorld {
 /// max_memory, whatever the method will be.
 PreparedWorld prepare_world(const WorldOptions& options, bool always_survey = false);
 
+/// The same for a scene that is in memory; options.scene is its name.
+PreparedWorld prepare_scene(const WorldOptions& options, Scene scene, bool always_survey = false);
+
 /// What the method is told, but for its resolution and a baked file.
 MethodOptions method_options(const WorldOptions& options, const PreparedWorld& world);
 

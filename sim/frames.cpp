@@ -54,8 +54,13 @@ Frame parse_frame(std::string_view line, int dimension, const std::string& where
   const JsonTree tree(line, where, ErrorCode::bad_frame);
   const JsonRef root = tree.root();
   root.only_keys({"time", "set", "add", "remove", "viewers", "drop_viewers"});
-  Frame out;
+  Frame out = read_frame(root, dimension);
   out.where = where;
+  return out;
+}
+
+Frame read_frame(const JsonRef& root, int dimension) {
+  Frame out;
   out.time = root.at("time").within(-greatest_time, greatest_time, "seconds of magnitude at most 1e12");
   read_ids(root, "remove", out.remove);
   read_list(

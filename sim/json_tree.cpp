@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gridcull/sim/cbor_check.h"
 #include "gridcull/sim/json_text.h"
 
 namespace gridcull {
@@ -45,13 +46,10 @@ class JsonTree::Builder final : public nlohmann::json_sax<nlohmann::json> {
   }
   bool number_unsigned(number_unsigned_t value) override { return leaf(Kind::integer, static_cast<double>(value)); }
   bool number_float(number_float_t value, const string_t&) override { return leaf(Kind::number, value); }
-  bool string(string_t& value) override {
-    const auto at = static_cast<std::uint32_t>(tree_.strings_.size());
-    tree_.strings_ += value;
-    push(Kind::string).text = {at, static_cast<std::uint32_t>(value.size())};
-    return true;
+  bool string(string_t& value) override { return text(Kind::string, value); }
+  bool binary(binary_t& value) override {
+    return text(Kind::bytes, std::string_view(reinterpret_cast<const char*>(value.data()), value.size()));
   }
-  bool binary(binary_t&) override { return false; }
   bool start_object(std::size_t) override { return open(Kind::object); }
   bool start_array(std::size_t) override { return open(Kind::array); }
   bool end_object() override { return close(); }
@@ -82,6 +80,12 @@ class JsonTree::Builder final : public nlohmann::json_sax<nlohmann::json> {
     node.key_at = key_at_;
     node.key_size = key_size_;
     return node;
+  }
+  bool text(Kind kind, std::string_view value) {
+    const auto at = static_cast<std::uint32_t>(tree_.strings_.size());
+    tree_.strings_ += value;
+    push(kind).text = {at, static_cast<std::uint32_t>(value.size())};
+    return true;
   }
   bool leaf(Kind kind, double value) {
     push(kind).number = value;
@@ -125,13 +129,20 @@ class JsonTree::Builder final : public nlohmann::json_sax<nlohmann::json> {
   std::uint32_t key_at_ = 0, key_size_ = 0;
 };
 
-JsonTree::JsonTree(std::string_view text, std::string source, ErrorCode code)
+JsonTree::JsonTree(std::string_view text, std::string source, ErrorCode code, Encoding encoding)
     : source_(std::move(source)), code_(code) {
   if (text.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorCode::limit, source_ + ": expected at most 4 GiB of JSON");
   }
   Builder builder(*this);
-  nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
+  if (encoding == Encoding::json) {
+    nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
+    return;
+  }
+  if (const std::string fault = fault_of_cbor(text, deepest); !fault.empty()) {
+    throw Error(ErrorCode::bad_message, source_ + ": expected CBOR: " + fault);
+  }
+  nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::cbor);
 }
 
 JsonRef JsonTree::root() const { return {*this, 0}; }
@@ -231,6 +242,11 @@ std::string_view JsonRef::string() const {
   return std::string_view(tree_->strings_).substr(node().text.at, node().text.size);
 }
 
+std::string_view JsonRef::bytes() const {
+  if (node().kind != JsonTree::Kind::bytes) refuse("a byte string");
+  return std::string_view(tree_->strings_).substr(node().text.at, node().text.size);
+}
+
 Vec3 JsonRef::point(int dimension) const {
   const bool fits = node().kind == JsonTree::Kind::array && node().text.size == static_cast<std::uint32_t>(dimension);
   if (!fits) refuse(dimension == 2 ? "2 coordinates [x, y]" : "3 coordinates [x, y, z]");
@@ -263,6 +279,7 @@ std::string JsonRef::found() const {
       append_string(text, whole.substr(0, 40));
       return whole.size() > 40 ? text + "..." : text;
     }
+    case JsonTree::Kind::bytes: return "a byte string of " + std::to_string(node().text.size);
     case JsonTree::Kind::array: return "an array of " + std::to_string(node().text.size);
     case JsonTree::Kind::object: return "an object";
   }

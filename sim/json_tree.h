@@ -1,4 +1,4 @@
-// JSON as a read-only tree with checked access: every refusal names source, pointer, what was expected and
+// JSON, as text or as CBOR, as a read-only tree with checked access: every refusal names source, pointer, what was expected and
 // what stood there.
 #pragma once
 
@@ -16,10 +16,13 @@ namespace gridcull {
 
 class JsonRef;
 
+/// How a value is written: RFC 8259 or RFC 8949.
+enum class Encoding : std::uint8_t { json, cbor };
+
 /// A parsed text. Nodes lie in document order in one array (as in simdjson's tape), 32 bytes each.
 class JsonTree {
  public:
-  enum class Kind : std::uint8_t { null, boolean, integer, number, string, array, object };
+  enum class Kind : std::uint8_t { null, boolean, integer, number, string, bytes, array, object };
   struct Node {
     Kind kind;
     std::uint32_t end;               ///< index after the node's last descendant
@@ -28,13 +31,14 @@ class JsonTree {
       double number;  ///< integer, number, boolean (0 or 1)
       struct {
         std::uint32_t at, size;
-      } text;  ///< string: in strings; array and object: size is the number of children
+      } text;  ///< string, bytes: in strings; array and object: size is the number of children
     };
   };
 
-  /// Throws Error(bad_message) for text that is not JSON or nested deeper than 32, Error(`code`) for a number
-  /// that no double holds. `source` stands at the front of refusals, `code` is theirs.
-  JsonTree(std::string_view text, std::string source, ErrorCode code);
+  /// Throws Error(bad_message) for text that is not JSON (CBOR: bytes that are no item with texts as keys) or nested
+  /// deeper than 32, Error(`code`) for a number that no double holds. `source` stands at the front of refusals, `code`
+  /// is theirs.
+  JsonTree(std::string_view text, std::string source, ErrorCode code, Encoding encoding = Encoding::json);
 
   JsonRef root() const;
   const std::string& source() const { return source_; }
@@ -66,6 +70,7 @@ class JsonRef {
   /// The items of an array.
   std::vector<JsonRef> items() const;
 
+  bool is_string() const { return node().kind == JsonTree::Kind::string; }
   double number() const;                                               ///< magnitude at most 1e9
   double positive() const;                                             ///< above 0, at most 1e9
   double not_negative() const;                                         ///< 0 .. 1e9
@@ -74,6 +79,8 @@ class JsonRef {
   std::uint32_t id() const;                                            ///< an integer 0 .. 2^32 - 2
   bool boolean() const;
   std::string_view string() const;
+  /// A byte string; only CBOR has them.
+  std::string_view bytes() const;
   /// An array of `dimension` coordinates; z = 0 in 2D.
   Vec3 point(int dimension) const;
 

@@ -54,7 +54,10 @@ void read_viewers(const JsonRef& json, Scene& scene) {
 
 Scene parse_scene(std::string_view text, const std::string& source_name) {
   const JsonTree tree(text, source_name, ErrorCode::bad_scene);
-  const JsonRef root = tree.root();
+  return read_scene(tree.root());
+}
+
+Scene read_scene(const JsonRef& root) {
   // The format first: an unknown key of a later version is then explained by its version.
   root.at("format").expect_format(format);
   root.only_keys({"format", "dimension", "bounds", "grid", "objects", "viewers"});

@@ -13,22 +13,15 @@
 namespace gridcull {
 namespace {
 
-/// normalised() until it stays as it is, so that what is written reads back with the same bits.
 Quat read_quaternion(const JsonRef& json) {
   const std::vector<JsonRef> parts = json.items();
   if (parts.size() != 4) json.refuse("a unit quaternion [w, x, y, z]");
-  Quat q{parts[0].number(), parts[1].number(), parts[2].number(), parts[3].number()};
+  const Quat q{parts[0].number(), parts[1].number(), parts[2].number(), parts[3].number()};
   try {
-    for (int i = 0; i < 8; ++i) {
-      const Quat next = normalised(q);
-      const bool same = next.w == q.w && next.x == q.x && next.y == q.y && next.z == q.z;
-      q = next;
-      if (same) break;
-    }
+    return settled(q);
   } catch (const Error&) {
     json.refuse_with("expected a unit quaternion [w, x, y, z], found one of length 0");
   }
-  return q;
 }
 
 struct Direction {
@@ -112,6 +105,16 @@ void append_frustum(std::string& out, const Frustum& frustum) {
 }
 
 }  // namespace
+
+Quat settled(Quat q) {
+  for (int i = 0; i < 8; ++i) {
+    const Quat next = normalised(q);
+    const bool same = next.w == q.w && next.x == q.x && next.y == q.y && next.z == q.z;
+    q = next;
+    if (same) break;
+  }
+  return q;
+}
 
 double radians_of(double degrees) { return degrees * (std::numbers::pi / 180.0); }
 

@@ -1,0 +1,56 @@
+// Holds a share of the answers against the exact reference, in a thread of its own.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "gridcull/core/culler.h"
+#include "gridcull/core/object.h"
+#include "gridcull/core/view.h"
+#include "gridcull/service/server/metrics.h"
+
+namespace gridcull {
+
+class Audit {
+ public:
+  /// `rate`: share of the answers, 0 .. 1; every 1/rate-th is taken.
+  Audit(double rate, Metrics& metrics);
+  /// What still waits is left unjudged.
+  ~Audit();
+  Audit(const Audit&) = delete;
+  Audit& operator=(const Audit&) = delete;
+
+  /// A frame's answers; copies the world when one of them is taken. Never waits: what finds the queue full is counted
+  /// as skipped. From any thread.
+  void offer(std::span<const Object> objects, int dimension, std::span<const View> views, const Answers& answers,
+             Guarantee guarantee);
+
+ private:
+  struct Job {
+    std::shared_ptr<const std::vector<Object>> objects;
+    int dimension;
+    View view;
+    Answer answer;
+    Guarantee guarantee;
+  };
+  static constexpr std::size_t most_jobs = 64;
+
+  void run();
+  void judge(const Job& job);
+
+  const double rate_;
+  Metrics& metrics_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> jobs_;
+  double owed_ = 0.0;  // answers to take
+  bool ending_ = false;
+  std::thread thread_;  // last: it uses all the others
+};
+
+}  // namespace gridcull

@@ -1,0 +1,74 @@
+// All sessions of a server, by id. Functions may be called from any thread.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "gridcull/service/server/metrics.h"
+#include "gridcull/service/server/server_options.h"
+#include "gridcull/service/session.h"
+
+namespace gridcull {
+
+/// Who is told what happens to a session. Called with the session's lock held: post, do not wait.
+class SessionListener {
+ public:
+  virtual ~SessionListener() = default;
+  /// The session has another client from now on.
+  virtual void taken_over() = 0;
+  /// A message for those who watch.
+  virtual void watched(std::shared_ptr<const std::string> message) = 0;
+};
+
+/// A session and who uses it. All but `key` under the lock.
+struct HeldSession {
+  HeldSession(SessionKey k, OpenRequest open, const Session::Limits& limits, const std::string& record)
+      : key(std::move(k)), session(std::move(open), limits, record) {}
+
+  const SessionKey key;
+  std::mutex mutex;
+  Session session;
+  std::weak_ptr<SessionListener> client{};                        ///< nobody: it waits for its client
+  std::chrono::steady_clock::time_point left{};                   ///< when its client went
+  std::vector<std::weak_ptr<SessionListener>> watchers{};
+};
+
+class Hub {
+ public:
+  Hub(const ServerOptions& options, Metrics& metrics) : options_(options), metrics_(metrics) {}
+
+  /// Throws Error(limit), and what Session's constructor throws.
+  std::shared_ptr<HeldSession> open(OpenRequest request, const std::shared_ptr<SessionListener>& client);
+  /// Throws Error(forbidden) for a session that is not there or another token.
+  std::shared_ptr<HeldSession> resume(const SessionKey& key, const std::shared_ptr<SessionListener>& client);
+  /// For watching. Throws Error(forbidden).
+  std::shared_ptr<HeldSession> find(const std::string& id) const;
+  /// The session ends.
+  void close(const std::shared_ptr<HeldSession>& held);
+  /// The client's connection ended; the session waits for it to come back.
+  void leave(const std::shared_ptr<HeldSession>& held, const SessionListener* client);
+  /// Ends sessions whose client has been away for too long.
+  void sweep();
+
+  /// GET /v1/sessions.
+  nlohmann::ordered_json list() const;
+
+ private:
+  void update_gauge();
+
+  const ServerOptions& options_;
+  Metrics& metrics_;
+  mutable std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<HeldSession>> sessions_;
+  std::uint64_t opening_ = 0;  // sessions that are being made
+};
+
+}  // namespace gridcull

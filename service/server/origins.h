@@ -1,0 +1,24 @@
+// Which browsers' pages may use the server: those that it served itself, and those that were named.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gridcull {
+
+class Origins {
+ public:
+  /// `address`, `port`: where the server listens; `allowed`: --allow-origin.
+  Origins(const std::string& address, std::uint16_t port, std::vector<std::string> allowed);
+
+  /// The headers `Origin` ("": no browser) and `Host` of a request.
+  bool may_use(std::string_view origin, std::string_view host) const;
+
+ private:
+  std::vector<std::string> allowed_;
+  bool loopback_;
+};
+
+}  // namespace gridcull

@@ -1,0 +1,129 @@
+#include "gridcull/service/session.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "gridcull/core/error.h"
+#include "gridcull/core/exact.h"
+
+namespace gridcull {
+namespace {
+
+constexpr int explain_rays = 512;
+
+void refuse_many(std::uint64_t count, std::uint64_t most) {
+  if (count <= most) return;
+  throw Error(ErrorCode::limit, "message: expected at most " + std::to_string(most) + " objects, found " +
+                                    std::to_string(count));
+}
+
+/// The scene as it has to be recorded: with the grid that was chosen for it.
+Scene with_grid(Scene scene, const LatticeChoice& choice) {
+  scene.bounds = choice.bounds;
+  scene.cell = choice.cell;
+  return scene;
+}
+
+PreparedWorld prepare(OpenRequest& open, const Session::Limits& limits) {
+  refuse_many(open.scene.objects.size(), limits.objects);
+  return prepare_scene(open.options, std::move(open.scene));
+}
+
+}  // namespace
+
+Session::Session(OpenRequest open, const Limits& limits, const std::string& record)
+    : name_(std::move(open.name)),
+      options_(open.options),
+      limits_(limits),
+      world_(prepare(open, limits)),
+      culler_(make_culler(options_, world_)),
+      replay_(std::make_unique<Replay>(*culler_, world_.scene, &source_)) {
+  if (!record.empty()) record_ = std::make_unique<SessionRecord>(record, with_grid(world_.scene, world_.choice));
+  // The world has them now.
+  world_.scene.objects = {};
+  world_.scene.viewers = {};
+}
+
+void Session::check_count(const Frame& frame) const {
+  const std::size_t now = objects() + frame.add.size();
+  if (now > frame.remove.size()) refuse_many(now - frame.remove.size(), limits_.objects);
+}
+
+const FrameReply& Session::apply(const FrameRequest& request) {
+  if (seq_ > 0 && request.seq == seq_) {
+    // Again, and after a resume in full, since nobody knows what has arrived.
+    if (fresh_) make_reply(request);
+    reply_.bulk = request.bulk;
+    return reply_;
+  }
+  if (request.seq != seq_ + 1) {
+    throw Error(ErrorCode::sequence, "message: /seq: expected " + std::to_string(seq_ + 1) + ", found " +
+                                         std::to_string(request.seq));
+  }
+  check_count(request.frame);
+  source_.frame = &request.frame;
+  const std::optional<double> before = world().time();
+  try {
+    replay_->step();
+    if (record_) record_->add(request.frame);
+  } catch (...) {
+    // The world refuses a frame before it changes anything; whatever else fails leaves half a frame.
+    broken_ = world().time() != before;
+    throw;
+  }
+  seq_ = request.seq;
+  for (const Answer& answer : answers().views) hash_.add(answer);
+  forget(request.frame.drop_viewers);
+  make_reply(request);
+  return reply_;
+}
+
+void Session::forget(const std::vector<ViewerId>& viewers) {
+  for (const ViewerId viewer : viewers) told_.erase(viewer);
+}
+
+void Session::make_reply(const FrameRequest& request) {
+  reply_.seq = seq_;
+  reply_.time = world().time().value_or(0.0);
+  reply_.bulk = request.bulk;
+  reply_.wanted = request.reply != ReplyKind::none;
+  reply_.answers.clear();
+  if (!reply_.wanted) return;
+  const bool full = fresh_ || request.reply == ReplyKind::full;
+  for (const Answer& answer : answers().views) {
+    ViewerReply& reply = reply_.answers.emplace_back();
+    reply.viewer = answer.viewer;
+    reply.full = full;
+    std::vector<ObjectId>& told = told_[answer.viewer];
+    if (full) {
+      reply.visible = answer.visible;
+    } else {
+      std::set_difference(answer.visible.begin(), answer.visible.end(), told.begin(), told.end(),
+                          std::back_inserter(reply.added));
+      std::set_difference(told.begin(), told.end(), answer.visible.begin(), answer.visible.end(),
+                          std::back_inserter(reply.removed));
+    }
+    told = answer.visible;
+  }
+  fresh_ = false;
+}
+
+Explanation Session::explain(const ExplainRequest& request) const {
+  if (seq_ == 0) throw Error(ErrorCode::sequence, "message: expected a frame before the first explain");
+  if (dimension() == 3 && !ExactRays::available()) {
+    throw Error(ErrorCode::limit, "message: the 3D reference needs Embree, which this server was built without");
+  }
+  const auto view = std::find_if(views().begin(), views().end(), [&](const View& v) { return v.viewer == request.viewer; });
+  if (view == views().end()) {
+    throw Error(ErrorCode::unknown_object, "message: /viewer: expected the id of a viewer of the last frame, found " +
+                                               std::to_string(request.viewer));
+  }
+  if (!world().has(request.object)) {
+    throw Error(ErrorCode::unknown_object, "message: /object: expected the id of an object that is there, found " +
+                                               std::to_string(request.object));
+  }
+  return gridcull::explain(world().objects(), lattice(), *view, request.object, explain_rays);
+}
+
+}  // namespace gridcull

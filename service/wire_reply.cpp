@@ -1,0 +1,107 @@
+#include "gridcull/service/wire_reply.h"
+
+#include <new>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "gridcull/service/wire_bulk.h"
+
+namespace gridcull {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ids_json(const std::vector<ObjectId>& ids, bool bulk) {
+  if (bulk) return Json::binary(bulk_ids(ids));
+  return ids;
+}
+
+std::string code_name(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::bad_scene: return "bad_scene";
+    case ErrorCode::bad_frame: return "bad_frame";
+    case ErrorCode::unknown_object: return "unknown_object";
+    case ErrorCode::sequence: return "sequence";
+    case ErrorCode::limit: return "limit";
+    case ErrorCode::forbidden: return "forbidden";
+    case ErrorCode::bad_message:
+    case ErrorCode::usage: return "bad_message";  // a method or option that nobody knows
+    case ErrorCode::io:
+    case ErrorCode::internal: break;
+  }
+  return "internal";
+}
+
+/// "message: /pointer: line" as its parts; any of the first two may be missing.
+void split(std::string_view text, WireError& out) {
+  constexpr std::string_view source = "message: ";
+  if (text.starts_with(source)) text.remove_prefix(source.size());
+  const std::size_t end = text.find(": ");
+  if (text.starts_with('/') && end != std::string_view::npos) {
+    out.pointer = text.substr(0, end);
+    text.remove_prefix(end + 2);
+  }
+  // Pointers into a scene are the scene's own.
+  constexpr std::string_view scene = "/scene";
+  if (out.pointer.starts_with(scene) && (out.pointer.size() == scene.size() || out.pointer[scene.size()] == '/')) {
+    out.pointer.erase(0, scene.size());
+  }
+  out.message = text;
+}
+
+}  // namespace
+
+std::string encoded(const Json& message, Encoding encoding) {
+  if (encoding == Encoding::json) return message.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string bytes;
+  Json::to_cbor(message, bytes);
+  return bytes;
+}
+
+Json opened_message(const Session& session, const SessionKey& key) {
+  return {{"type", "opened"},
+          {"session", key.session},
+          {"token", key.token},
+          {"cell", session.cell()},
+          {"objects", session.objects()}};
+}
+
+Json frame_message(const FrameReply& reply) {
+  if (!reply.wanted) return {{"type", "ok"}, {"seq", reply.seq}};
+  Json answers = Json::array();
+  for (const ViewerReply& viewer : reply.answers) {
+    Json answer{{"viewer", viewer.viewer}};
+    if (viewer.full) {
+      answer["visible"] = ids_json(viewer.visible, reply.bulk);
+    } else {
+      answer["added"] = ids_json(viewer.added, reply.bulk);
+      answer["removed"] = ids_json(viewer.removed, reply.bulk);
+    }
+    answers.push_back(std::move(answer));
+  }
+  return {{"type", "pvs"}, {"seq", reply.seq}, {"time", reply.time}, {"answers", std::move(answers)}};
+}
+
+WireError wire_error(const std::exception& fault) {
+  WireError out{"internal", "the server failed", ""};
+  if (dynamic_cast<const std::bad_alloc*>(&fault) != nullptr) {
+    return {"limit", "out of memory", ""};
+  }
+  const auto* error = dynamic_cast<const Error*>(&fault);
+  if (error == nullptr) return out;
+  out.code = code_name(error->code());
+  split(fault.what(), out);
+  return out;
+}
+
+Json error_message(const WireError& error, std::optional<std::uint64_t> seq) {
+  Json json{{"type", "error"}, {"code", error.code}, {"message", error.message}};
+  if (!error.pointer.empty()) json["pointer"] = error.pointer;
+  if (seq) json["seq"] = *seq;
+  return json;
+}
+
+}  // namespace gridcull
