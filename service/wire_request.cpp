@@ -59,8 +59,9 @@ OpenRequest read_open(const WireRequest& request, int most_threads) {
   out.token = text_or(root, "token");
   if (const auto method = root.find("method")) out.options.method = method->string();
   if (const auto options = root.find("options")) read_options(*options, most_threads, out.options);
+  const JsonRef scene = root.at("scene");
   try {
-    out.scene = read_scene(root.at("scene"));
+    out.scene = read_scene(scene);
   } catch (const Error& fault) {
     // Whatever is wrong with a scene is a bad scene.
     throw Error(fault.code() == ErrorCode::bad_message ? ErrorCode::bad_scene : fault.code(), fault.what());

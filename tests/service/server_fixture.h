@@ -1,0 +1,124 @@
+// A real server in threads of its own, on a free port, and plain ways to talk to it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include <utility>  // before Asio: Boost 1.74 does not include it in C++20
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <nlohmann/json.hpp>
+
+#include "gridcull/service/server/server.h"
+
+namespace gridcull::test {
+
+namespace beast = boost::beast;
+using Json = nlohmann::json;
+using Tcp = boost::asio::ip::tcp;
+
+class RunningServer {
+ public:
+  explicit RunningServer(ServerOptions options = {}) {
+    options.port = 0;
+    server_ = std::make_unique<Server>(options);
+    thread_ = std::thread([this] { server_->run(false); });
+  }
+  ~RunningServer() { stop(); }
+  /// Gives back when the server has ended.
+  void stop() {
+    if (!thread_.joinable()) return;
+    server_->stop();
+    thread_.join();
+  }
+  std::uint16_t port() const { return server_->port(); }
+
+ private:
+  std::unique_ptr<Server> server_;
+  std::thread thread_;
+};
+
+inline Tcp::socket connected(boost::asio::io_context& context, std::uint16_t port) {
+  Tcp::socket socket(context);
+  socket.connect({boost::asio::ip::make_address("127.0.0.1"), port});
+  return socket;
+}
+
+struct Page {
+  unsigned status = 0;
+  std::string body{};
+};
+
+inline Page http_get(std::uint16_t port, const std::string& path, const std::string& origin = "") {
+  boost::asio::io_context context;
+  Tcp::socket socket = connected(context, port);
+  beast::http::request<beast::http::string_body> request(beast::http::verb::get, path, 11);
+  request.set(beast::http::field::host, "127.0.0.1:" + std::to_string(port));
+  if (!origin.empty()) request.set(beast::http::field::origin, origin);
+  beast::http::write(socket, request);
+  beast::flat_buffer buffer;
+  beast::http::response<beast::http::string_body> response;
+  beast::http::read(socket, buffer, response);
+  return {response.result_int(), response.body()};
+}
+
+/// A WebSocket that says what it is told, right or wrong.
+class RawSocket {
+ public:
+  explicit RawSocket(std::uint16_t port, const std::string& origin = "") : stream_(connected(context_, port)) {
+    if (!origin.empty()) {
+      stream_.set_option(beast::websocket::stream_base::decorator(
+          [origin](beast::websocket::request_type& request) { request.set(beast::http::field::origin, origin); }));
+    }
+    stream_.read_message_max(0);
+    stream_.handshake("127.0.0.1:" + std::to_string(port), "/v1/stream");
+  }
+
+  void send_bytes(std::string_view bytes, bool text = true) {
+    stream_.text(text);
+    stream_.write(boost::asio::buffer(bytes));
+  }
+  void send(const Json& message) { send_bytes(message.dump()); }
+  /// The next message. Throws when the connection is closed.
+  Json receive() {
+    beast::flat_buffer buffer;
+    stream_.read(buffer);
+    const std::string text = beast::buffers_to_string(buffer.data());
+    return stream_.got_text() ? Json::parse(text) : Json::from_cbor(text);
+  }
+  Json ask(const Json& message) {
+    send(message);
+    return receive();
+  }
+  /// Reads until the other end closes, and gives the code it gave; 0 where it gave none.
+  unsigned wait_for_close() {
+    beast::error_code fault;
+    beast::flat_buffer buffer;
+    while (!fault) {
+      buffer.clear();
+      stream_.read(buffer, fault);
+    }
+    return fault == beast::websocket::error::closed ? stream_.reason().code : 0;
+  }
+  std::string close_reason() const { return std::string(stream_.reason().reason.c_str()); }
+  /// Goes without a word.
+  void drop() { stream_.next_layer().close(); }
+  Tcp::socket& socket() { return stream_.next_layer(); }
+
+ private:
+  boost::asio::io_context context_;
+  beast::websocket::stream<Tcp::socket> stream_;
+};
+
+}  // namespace gridcull::test

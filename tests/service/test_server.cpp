@@ -1,0 +1,401 @@
+// The server over real connections: what clients are told, and that nothing that one of them does harms another.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "gridcull/core/hash.h"
+#include "gridcull/methods/catalog.h"
+#include "gridcull/service/client/gridcull_client.h"
+#include "gridcull/sim/generate.h"
+#include "gridcull/sim/replay.h"
+#include "gridcull/tests/service/server_fixture.h"
+#include "gridcull/tests/sim_helpers.h"
+
+using namespace gridcull;
+using namespace gridcull::test;
+
+namespace {
+
+std::unique_ptr<Generator> world_of(const std::string& kind, int frames) {
+  GenerateOptions options;
+  options.count = 40;
+  options.viewers = 4;
+  options.blocks = 3;
+  options.range = 60.0;
+  options.frames = frames;
+  return make_generator(kind, options);
+}
+
+Json open_message(int frames = 1) {
+  return {{"type", "open"}, {"scene", Json::parse(scene_text(world_of("town", frames)->scene()))}};
+}
+
+Json frame_message(std::uint64_t seq) { return {{"type", "frame"}, {"seq", seq}, {"time", static_cast<double>(seq)}}; }
+
+/// What the client says about a generated world, against a replay in this process.
+void check_client(const std::string& kind, Client::Reply reply) {
+  CAPTURE(kind);
+  RunningServer server;
+  const auto generator = world_of(kind, 12), told = world_of(kind, 12);
+  const Scene& scene = generator->scene();
+  MethodOptions options;
+  options.dimension = scene.dimension;
+  options.bounds = *scene.bounds;
+  options.cell = *scene.cell;
+  const auto culler = make_method("silhouette", options);
+  Replay replay(*culler, scene, generator.get());
+  Client client("127.0.0.1", server.port());
+  client.open(Json::parse(scene_text(scene)));
+  Frame frame;
+  while (replay.step()) {
+    REQUIRE(told->next(frame));
+    Client::Frame out{.time = frame.time};
+    for (const ObjectMove& move : frame.set) {
+      const Pose& pose = replay.world().object(move.id).pose;
+      const Quat& q = pose.orientation;
+      if (scene.dimension == 2) {
+        out.move(move.id, {pose.position.x, pose.position.y}, move.heading.value_or(heading_of(q)));
+      } else {
+        out.move(move.id, {pose.position.x, pose.position.y, pose.position.z}, {q.w, q.x, q.y, q.z});
+      }
+    }
+    const Client::Answers answers = client.frame(out, reply);
+    for (const Answer& answer : replay.answers().views) {
+      REQUIRE(answers.contains(answer.viewer));
+      CHECK(answers.at(answer.viewer) == answer.visible);
+    }
+  }
+  client.close();
+}
+
+}  // namespace
+
+TEST_CASE("the client is told what a replay says, in 2D and 3D, in full and in deltas") {
+  check_client("town", Client::Reply::delta);
+  check_client("town", Client::Reply::full);
+  check_client("city", Client::Reply::delta);
+}
+
+TEST_CASE("plain HTTP: health, metrics, sessions, the page, and nothing else") {
+  RunningServer server;
+  RawSocket client(server.port());
+  client.ask(open_message());
+  client.ask(frame_message(1));
+  CHECK(http_get(server.port(), "/healthz").body == "ok");
+  const std::string metrics = http_get(server.port(), "/metrics").body;
+  CHECK(metrics.find("\ngridcull_frames_total 1\n") != std::string::npos);
+  CHECK(metrics.find("\ngridcull_queries_total 4\n") != std::string::npos);
+  CHECK(metrics.find("\ngridcull_sessions 1\n") != std::string::npos);
+  const Json sessions = Json::parse(http_get(server.port(), "/v1/sessions").body).at("sessions");
+  REQUIRE(sessions.size() == 1);
+  CHECK(sessions[0].at("seq") == 1);
+  CHECK_FALSE(sessions[0].contains("token"));
+  CHECK(http_get(server.port(), "/").body.find("<html") != std::string::npos);
+  CHECK(http_get(server.port(), "/etc/passwd").status == 404);
+  CHECK(http_get(server.port(), "/", "http://elsewhere.example").status == 403);
+}
+
+TEST_CASE("a lost connection loses nothing: resume, and answers again") {
+  RunningServer server;
+  RawSocket first(server.port());
+  const Json opened = first.ask(open_message());
+  Json moved = frame_message(1);
+  moved["reply"] = "delta";
+  const Json answer = first.ask(moved);
+  CHECK(answer.at("answers")[0].contains("visible"));
+  first.drop();
+  RawSocket second(server.port());
+  const Json resumed =
+      second.ask({{"type", "resume"}, {"session", opened.at("session")}, {"token", opened.at("token")}});
+  CHECK(resumed == Json{{"type", "resumed"}, {"seq", 1}});
+  CHECK(second.ask(moved).at("answers") == answer.at("answers"));  // not applied twice: its time does not go back
+  Json next = frame_message(2);
+  next["reply"] = "delta";
+  CHECK(second.ask(next).at("answers")[0].contains("added"));
+  // Somebody else with the token takes it over; the one before is told so.
+  RawSocket third(server.port());
+  third.ask({{"type", "resume"}, {"session", opened.at("session")}, {"token", opened.at("token")}});
+  CHECK(second.wait_for_close() == 1008);
+  CHECK(third.ask(frame_message(3)).at("type") == "pvs");
+  RawSocket thief(server.port());
+  CHECK(thief.ask({{"type", "resume"}, {"session", opened.at("session")}, {"token", "guess"}}).at("code") == "forbidden");
+  CHECK(thief.ask({{"type", "resume"}, {"session", "none"}, {"token", "guess"}}).at("code") == "forbidden");
+  CHECK(third.ask({{"type", "close"}}).at("type") == "closed");
+  CHECK(thief.ask({{"type", "resume"}, {"session", opened.at("session")}, {"token", opened.at("token")}}).at("code") ==
+        "forbidden");
+}
+
+TEST_CASE("a session waits for its client as long as it is told to, not longer") {
+  ServerOptions options;
+  options.keep = std::chrono::seconds(0);
+  RunningServer server(options);
+  RawSocket first(server.port());
+  const Json opened = first.ask(open_message());
+  first.drop();
+  std::string code;
+  for (int i = 0; i < 40 && code != "forbidden"; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    if (Json::parse(http_get(server.port(), "/v1/sessions").body).at("sessions").empty()) code = "forbidden";
+  }
+  CHECK(code == "forbidden");
+}
+
+TEST_CASE("limits and tokens: each refusal has its code, and the connection lives on") {
+  ServerOptions options;
+  options.max_sessions = 1;
+  options.max_objects = 50;
+  options.token = "sesame";
+  options.max_memory = 1 << 20;
+  RunningServer server(options);
+  RawSocket client(server.port());
+  CHECK(client.ask(open_message()).at("code") == "forbidden");
+  CHECK(client.ask(open_message()).at("pointer") == "/token");
+  Json open = open_message();
+  open["token"] = "sesame";
+  Json many = open;
+  for (int i = 0; i < 60; ++i) {
+    many["scene"]["objects"].push_back(
+        {{"id", 9000 + i}, {"shape", {{"type", "disc"}, {"radius", 1}}}, {"position", {1, 1}}});
+  }
+  CHECK(client.ask(many).at("code") == "limit");
+  Json fine = open;
+  fine["options"]["cell"] = 0.01;
+  CHECK(client.ask(fine).at("code") == "limit");
+  const Json opened = client.ask(open);
+  CHECK(opened.at("type") == "opened");
+  CHECK(client.ask(open).at("code") == "sequence");
+  RawSocket other(server.port());
+  CHECK(other.ask(open).at("code") == "limit");
+  CHECK(other.ask(frame_message(1)).at("code") == "sequence");
+  CHECK(other.ask({{"type", "watch"}, {"session", opened.at("session")}}).at("code") == "forbidden");
+  CHECK(other.ask({{"type", "watch"}, {"session", opened.at("session")}, {"token", "sesame"}}).at("type") == "watching");
+  CHECK(other.ask({{"type", "sing"}}).at("code") == "bad_message");
+  client.ask(frame_message(1));
+  CHECK(other.receive().at("type") == "step");
+  CHECK(client.ask({{"type", "close"}}).at("type") == "closed");
+  CHECK(other.ask(open).at("type") == "opened");
+}
+
+TEST_CASE("pages from elsewhere may not connect, unless they are named") {
+  ServerOptions options;
+  options.allowed_origins = {"https://map.example"};
+  RunningServer server(options);
+  CHECK_THROWS(RawSocket(server.port(), "https://elsewhere.example"));
+  CHECK_THROWS(RawSocket(server.port(), "http://elsewhere.example:" + std::to_string(server.port())));
+  CHECK_NOTHROW(RawSocket(server.port(), "https://map.example"));
+  CHECK_NOTHROW(RawSocket(server.port(), "http://localhost:" + std::to_string(server.port())));
+}
+
+TEST_CASE("nothing that a client sends harms another") {
+  ServerOptions options;
+  options.max_message = 200'000;
+  RunningServer server(options);
+  RawSocket good(server.port());
+  good.ask(open_message());
+  std::uint64_t seq = 0;
+  const auto good_lives = [&] { CHECK(good.ask(frame_message(++seq)).at("type") == "pvs"); };
+  const auto refused = [&](std::string_view bytes, bool text, const char* code) {
+    RawSocket bad(server.port());
+    bad.send_bytes(bytes, text);
+    const Json answer = bad.receive();
+    CHECK(answer.at("type") == "error");
+    CHECK(answer.at("code") == code);
+    CHECK(bad.ask(Json{{"type", "none"}}).at("code") == "bad_message");  // and goes on
+    good_lives();
+  };
+  SUBCASE("JSON 10,000 deep") { refused(std::string(10'000, '['), true, "bad_message"); }
+  SUBCASE("CBOR of nested chunks") { refused(std::string(100'000, '\x7f'), false, "bad_message"); }
+  SUBCASE("CBOR whose lengths lie") { refused("\xa1\x64type\x7b\x7f\xff\xff\xff\xff\xff\xff\xff", false, "bad_message"); }
+  SUBCASE("nothing") { refused("", true, "bad_message"); }
+  SUBCASE("a frame without a session") { refused(frame_message(1).dump(), true, "sequence"); }
+  SUBCASE("text that is not UTF-8") {
+    RawSocket bad(server.port());
+    bad.send_bytes("\"\xff\xfe\"");
+    CHECK(bad.wait_for_close() == 1007);
+    good_lives();
+  }
+  SUBCASE("every truncation of a valid message") {
+    Json open = open_message();
+    open["scene"]["objects"].erase(open["scene"]["objects"].begin() + 3, open["scene"]["objects"].end());
+    open["scene"]["viewers"] = Json::array();
+    const std::string text = open.dump();
+    const std::vector<std::uint8_t> cbor = Json::to_cbor(open);
+    RawSocket bad(server.port());
+    for (std::size_t n = 0; n < text.size(); ++n) {
+      bad.send_bytes(std::string_view(text).substr(0, n));
+      REQUIRE(bad.receive().at("code") == "bad_message");
+    }
+    for (std::size_t n = 0; n < cbor.size(); ++n) {
+      bad.send_bytes(std::string_view(reinterpret_cast<const char*>(cbor.data()), n), false);
+      REQUIRE(bad.receive().at("code") == "bad_message");
+    }
+    CHECK(bad.ask(open).at("type") == "opened");
+    good_lives();
+  }
+  SUBCASE("a message over the limit") {
+    RawSocket bad(server.port());
+    bad.send_bytes(std::string(300'000, ' '));
+    CHECK(bad.receive().at("code") == "limit");
+    CHECK(bad.wait_for_close() == 1009);
+    good_lives();
+  }
+  SUBCASE("a gigabyte announced, of which a little comes") {
+    RawSocket bad(server.port());
+    const std::string head("\x82\xff\0\0\0\0\x40\0\0\0abcd", 14);  // binary, masked, 2^30 bytes
+    boost::asio::write(bad.socket(), boost::asio::buffer(head));
+    boost::asio::write(bad.socket(), boost::asio::buffer(std::string(250'000, 'x')));
+    CHECK(bad.receive().at("code") == "limit");
+    good_lives();
+  }
+  SUBCASE("a client that goes in the middle of a message") {
+    for (int i = 0; i < 20; ++i) {
+      RawSocket bad(server.port());
+      const std::string head("\x81\xfe\x01\0abcd{\"type", 14);
+      boost::asio::write(bad.socket(), boost::asio::buffer(head));
+      bad.drop();
+    }
+    good_lives();
+  }
+  SUBCASE("bytes that are no HTTP") {
+    boost::asio::io_context context;
+    for (int i = 0; i < 20; ++i) {
+      Tcp::socket socket = connected(context, server.port());
+      boost::asio::write(socket, boost::asio::buffer(std::string("\x16\x03\x01\x02\0 garbage\r\n\r\n", 20)));
+    }
+    good_lives();
+  }
+  CHECK(http_get(server.port(), "/healthz").status == 200);
+}
+
+TEST_CASE("a flood of connections is cut off; those that are there go on") {
+  ServerOptions options;
+  options.max_connections = 20;
+  RunningServer server(options);
+  RawSocket good(server.port());
+  good.ask(open_message());
+  boost::asio::io_context context;
+  std::vector<Tcp::socket> flood;
+  for (int i = 0; i < 300; ++i) flood.push_back(connected(context, server.port()));
+  CHECK(good.ask(frame_message(1)).at("type") == "pvs");
+  flood.clear();
+  bool back = false;
+  for (int i = 0; i < 50 && !back; ++i) {
+    try {
+      back = http_get(server.port(), "/healthz").status == 200;
+    } catch (const boost::system::system_error&) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+  CHECK(back);
+}
+
+TEST_CASE("many sessions at once answer as one alone does") {
+  ServerOptions options;
+  options.threads = 4;
+  RunningServer server(options);
+  std::atomic<int> wrong = 0, answered = 0;
+  const auto one = [&] {
+    RawSocket client(server.port());
+    client.ask(open_message());
+    Json first;
+    for (std::uint64_t seq = 1; seq <= 30; ++seq) {
+      const Json answers = client.ask(frame_message(seq)).at("answers");
+      if (seq == 1) first = answers;
+      wrong += answers != first;  // nothing moves
+      ++answered;
+    }
+  };
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 8; ++i) clients.emplace_back(one);
+  for (std::thread& client : clients) client.join();
+  CHECK(answered == 240);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("a watcher that does not read is let go; the session does not notice") {
+  RunningServer server;
+  RawSocket client(server.port());
+  const Json opened = client.ask(open_message());
+  RawSocket watcher(server.port());
+  watcher.ask({{"type", "watch"}, {"session", opened.at("session")}});
+  // Frames full of moves, so that the sockets' own buffers fill.
+  Json moves = Json::array();
+  for (const Json& object : open_message()["scene"]["objects"]) {
+    moves.push_back({{"id", object["id"]}, {"position", object["position"]}});
+  }
+  std::uint64_t seq = 0;
+  bool closed = false;
+  while (!closed && seq < 5000) {
+    Json frame = frame_message(++seq);
+    frame["set"] = moves;
+    REQUIRE(client.ask(frame).at("type") == "pvs");
+    if (seq % 100 == 0) {
+      closed = http_get(server.port(), "/metrics").body.find("\ngridcull_slow_connections_closed_total 1\n") !=
+               std::string::npos;
+    }
+  }
+  CHECK(closed);
+  CHECK(watcher.wait_for_close() == 1013);
+  CHECK(watcher.close_reason() == "too slow to watch");
+}
+
+TEST_CASE("a server that stops says so, after the answer in hand") {
+  RunningServer server;
+  RawSocket client(server.port()), idle(server.port());
+  client.ask(open_message());
+  client.send(frame_message(1));
+  CHECK(client.receive().at("type") == "pvs");
+  std::thread stopper([&] { server.stop(); });
+  CHECK(client.wait_for_close() == 1001);
+  CHECK(idle.wait_for_close() == 1001);
+  stopper.join();
+}
+
+TEST_CASE("a record is the session: it replays to the same answers") {
+  const TemporaryFolder folder;
+  ServerOptions options;
+  options.record = folder.file("records");
+  RunningServer server(options);
+  RawSocket client(server.port());
+  const Json opened = client.ask(open_message());
+  for (std::uint64_t seq = 1; seq <= 5; ++seq) client.ask(frame_message(seq));
+  const std::string session = options.record + "/" + opened.at("session").get<std::string>();
+  const Scene scene = read_scene(session + "/scene.json");
+  FrameReader frames(session + "/frames.jsonl", 2);
+  MethodOptions method;
+  method.bounds = *scene.bounds;
+  method.cell = *scene.cell;
+  const auto culler = make_method("silhouette", method);
+  Replay replay(*culler, scene, &frames);
+  StableHash hash;
+  int steps = 0;
+  for (; replay.step(); ++steps) {
+    for (const Answer& answer : replay.answers().views) hash.add(answer);
+  }
+  CHECK(steps == 5);
+  const Json listed = Json::parse(http_get(server.port(), "/v1/sessions").body).at("sessions")[0];
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.value()));
+  CHECK(listed.at("pvs_hash") == text);
+}
+
+TEST_CASE("an audit judges answers in the background and finds nothing amiss") {
+  ServerOptions options;
+  options.audit = 1.0;
+  RunningServer server(options);
+  RawSocket client(server.port());
+  client.ask(open_message());
+  for (std::uint64_t seq = 1; seq <= 5; ++seq) client.ask(frame_message(seq));
+  bool judged = false;
+  for (int i = 0; i < 100 && !judged; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    judged = http_get(server.port(), "/metrics").body.find("\ngridcull_audited_answers_total 20\n") != std::string::npos;
+  }
+  CHECK(judged);
+  CHECK(http_get(server.port(), "/metrics").body.find("\ngridcull_audit_missed_objects_total 0\n") != std::string::npos);
+}

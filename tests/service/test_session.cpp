@@ -1,0 +1,243 @@
+// A session of the service, without sockets: the same answers as a replay, refusals that change nothing, answers again.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "gridcull/service/session.h"
+#include "gridcull/service/wire_reply.h"
+#include "gridcull/sim/generate.h"
+#include "gridcull/sim/scene_json.h"
+
+using namespace gridcull;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr Session::Limits limits{.objects = 1000};
+
+/// A small town that moves, as messages.
+struct Town {
+  explicit Town(int frames = 20) {
+    GenerateOptions options;
+    options.count = 40;
+    options.viewers = 5;
+    options.range = 60.0;
+    options.frames = frames;
+    const auto generator = make_generator("town", options);
+    scene = generator->scene();
+    Frame frame;
+    while (generator->next(frame)) lines.push_back(frame_text(frame, 2));
+  }
+  Json open() const { return {{"type", "open"}, {"scene", Json::parse(scene_text(scene))}}; }
+  Json frame(std::size_t i, const char* reply = "full") const {
+    Json json = Json::parse(lines[i]);
+    json["type"] = "frame";
+    json["seq"] = i + 1;
+    json["reply"] = reply;
+    return json;
+  }
+
+  Scene scene;
+  std::vector<std::string> lines;
+};
+
+Session session_of(const Json& open) {
+  return Session(read_open(WireRequest(encoded(open, Encoding::json), Encoding::json), 4), limits, "");
+}
+
+FrameReply tell(Session& session, const Json& frame, Encoding encoding = Encoding::json) {
+  return session.apply(read_frame_request(WireRequest(encoded(frame, encoding), encoding), session.dimension()));
+}
+
+std::string text_of(const FrameReply& reply) { return encoded(frame_message(reply), Encoding::json); }
+
+/// Code and pointer of the refusal, as a client sees them.
+template <class Action>
+std::string refusal(const Action& action) {
+  try {
+    action();
+  } catch (const std::exception& fault) {
+    const WireError error = wire_error(fault);
+    CHECK(error.message.find('\n') == std::string::npos);
+    CHECK(!error.message.empty());
+    return error.code + " " + error.pointer;
+  }
+  return "none";
+}
+
+}  // namespace
+
+TEST_CASE("a session answers as a replay does, in full and in deltas") {
+  const Town town;
+  Session full = session_of(town.open()), delta = session_of(town.open());
+  std::map<ViewerId, std::vector<ObjectId>> seen;
+  for (std::size_t i = 0; i < town.lines.size(); ++i) {
+    const FrameReply a = tell(full, town.frame(i), i % 2 == 0 ? Encoding::json : Encoding::cbor);
+    const FrameReply b = tell(delta, town.frame(i, "delta"));
+    REQUIRE(a.answers.size() == 5);
+    REQUIRE(b.answers.size() == 5);
+    for (std::size_t k = 0; k < a.answers.size(); ++k) {
+      const ViewerReply& told = b.answers[k];
+      CHECK(told.full == (i == 0));
+      std::vector<ObjectId>& ids = seen[told.viewer];
+      if (told.full) ids = told.visible;
+      std::erase_if(ids, [&](ObjectId id) { return std::binary_search(told.removed.begin(), told.removed.end(), id); });
+      ids.insert(ids.end(), told.added.begin(), told.added.end());
+      std::sort(ids.begin(), ids.end());
+      CHECK(ids == a.answers[k].visible);
+    }
+  }
+  CHECK(full.pvs_hash() == delta.pvs_hash());
+  CHECK(full.seq() == town.lines.size());
+}
+
+TEST_CASE("a frame is answered again, not applied twice; after a resume in full") {
+  const Town town;
+  Session session = session_of(town.open());
+  tell(session, town.frame(0));
+  const FrameReply first = tell(session, town.frame(1, "delta"));
+  const std::uint64_t hash = session.pvs_hash();
+  const FrameReply again = tell(session, town.frame(1, "delta"));
+  CHECK(text_of(again) == text_of(first));
+  CHECK(session.pvs_hash() == hash);
+  CHECK(session.seq() == 2);
+  session.resume();
+  const FrameReply resumed = tell(session, town.frame(1, "delta"));
+  CHECK(resumed.answers[0].full);
+  CHECK_FALSE(tell(session, town.frame(2, "delta")).answers[0].full);
+  session.resume();
+  CHECK(tell(session, town.frame(3, "delta")).answers[0].full);
+  CHECK(text_of(tell(session, town.frame(4, "none"))) == R"({"type":"ok","seq":5})");
+  CHECK_FALSE(tell(session, town.frame(5, "delta")).answers[0].full);
+}
+
+TEST_CASE("a refused frame changes nothing and does not use up its number") {
+  const Town town;
+  Session session = session_of(town.open()), untouched = session_of(town.open());
+  tell(session, town.frame(0));
+  tell(untouched, town.frame(0));
+  const auto try_frame = [&](const char* key, const Json& value) {
+    Json frame = town.frame(1);
+    frame[key] = value;
+    return refusal([&] { tell(session, frame); });
+  };
+  CHECK(try_frame("seq", 3) == "sequence /seq");
+  CHECK(try_frame("seq", 0) == "sequence /seq");
+  CHECK(try_frame("seq", -1) == "bad_message /seq");
+  CHECK(try_frame("time", -5.0) == "bad_frame /time");
+  CHECK(try_frame("remove", {777}) == "unknown_object /remove/0");
+  CHECK(try_frame("set", {{{"id", 777}}}) == "unknown_object /set/0/id");
+  CHECK(try_frame("set", {{{"id", 0}}, {{"id", 0}}}) == "bad_frame /set/1");
+  CHECK(try_frame("set", {{{"id", 0}, {"position", {1e10, 0}}}}) == "bad_frame /set/0/position/0");
+  CHECK(try_frame("add", {{{"id", 900}}}) == "bad_frame /add/0");
+  CHECK(try_frame("reply", "some") == "bad_message /reply");
+  CHECK(try_frame("bulk", true) == "bad_message /bulk");
+  CHECK(try_frame("speed", 1) == "bad_message /speed");
+  Json many = Json::array();
+  for (int i = 0; i < 1000; ++i) {
+    many.push_back({{"id", 10000 + i}, {"shape", {{"type", "disc"}, {"radius", 1}}}, {"position", {i, 0}}});
+  }
+  CHECK(try_frame("add", many) == "limit ");
+  CHECK(session.seq() == 1);
+  for (std::size_t i = 1; i < town.lines.size(); ++i) {
+    CHECK(text_of(tell(session, town.frame(i))) == text_of(tell(untouched, town.frame(i))));
+  }
+  CHECK_FALSE(session.broken());
+}
+
+TEST_CASE("scenes and options that cannot be are refused with their place in the scene") {
+  const Town town;
+  const auto try_open = [&](const Json& change) {
+    Json open = town.open();
+    open.merge_patch(change);
+    return refusal([&] { session_of(open); });
+  };
+  CHECK(try_open({{"scene", {{"dimension", 4}}}}) == "bad_scene /dimension");
+  CHECK(try_open({{"scene", {{"format", "gridcull.scene/9"}}}}) == "bad_scene /format");
+  CHECK(try_open({{"scene", nullptr}}).starts_with("bad_message"));
+  CHECK(try_open({{"method", "guessing"}}) == "bad_message ");
+  CHECK(try_open({{"options", {{"cell", -1}}}}) == "bad_message /options/cell");
+  CHECK(try_open({{"options", {{"colour", 1}}}}) == "bad_message /options/colour");
+  CHECK(try_open({{"options", {{"threads", 5}}}}) == "bad_message /options/threads");
+  CHECK(try_open({{"options", {{"cell", 1e-3}}}}).starts_with("limit"));
+  CHECK(try_open({{"options", {{"cell", 4.0}, {"threads", 2}, {"tbv", "solid"}}}}) == "none");
+  Json open = town.open();
+  open["scene"]["objects"][3]["shape"] = {{"type", "disc"}, {"radius", -1}};
+  CHECK(refusal([&] { session_of(open); }) == "bad_scene /objects/3/shape/radius");
+}
+
+TEST_CASE("bulk moves in CBOR are the moves, bit for bit; what does not fit is refused") {
+  const Town town;
+  Session by_set = session_of(town.open()), by_bulk = session_of(town.open());
+  const auto bytes = [](const auto& numbers) {
+    const auto* first = reinterpret_cast<const std::uint8_t*>(numbers.data());
+    return Json::binary(std::vector<std::uint8_t>(first, first + numbers.size() * sizeof(numbers[0])));
+  };
+  const auto in_bulk = [&](const Json& frame) {
+    std::vector<std::uint32_t> ids;
+    std::vector<double> positions, headings;
+    for (const Json& move : frame["set"]) {
+      ids.push_back(move["id"]);
+      for (const double x : move["position"]) positions.push_back(x);
+      headings.push_back(move["heading"]);
+    }
+    Json bulk = frame;
+    bulk.erase("set");
+    bulk["set_ids"] = bytes(ids);
+    bulk["set_positions64"] = bytes(positions);
+    bulk["set_headings64"] = bytes(headings);
+    bulk["bulk"] = true;
+    return bulk;
+  };
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < town.lines.size(); ++i) {
+    Json frame = town.frame(i);
+    const FrameReply a = tell(by_set, frame);
+    if (frame.contains("set")) {
+      for (Json& move : frame["set"]) {
+        if (!move.contains("heading")) move["heading"] = 0.0;
+      }
+      moved += frame["set"].size();
+    }
+    const bool whole = frame.contains("set") && town.lines[i].find("heading") != std::string::npos;
+    const FrameReply b = whole ? tell(by_bulk, in_bulk(frame), Encoding::cbor) : tell(by_bulk, town.frame(i));
+    REQUIRE(a.answers.size() == b.answers.size());
+    for (std::size_t k = 0; k < a.answers.size(); ++k) CHECK(a.answers[k].visible == b.answers[k].visible);
+  }
+  CHECK(moved > 0);
+  const auto try_bulk = [&](const Json& change) {
+    Json frame{{"type", "frame"}, {"seq", town.lines.size() + 1}, {"time", 1e6}};
+    frame["set_ids"] = bytes(std::vector<std::uint32_t>{0, 1});
+    frame.update(change);
+    return refusal([&] { tell(by_bulk, frame, Encoding::cbor); });
+  };
+  CHECK(try_bulk({{"set_ids", Json::binary({1, 2, 3})}}) == "bad_frame /set_ids");
+  CHECK(try_bulk({{"set_ids", bytes(std::vector<std::uint32_t>{4, 4})}}) == "bad_frame /set_ids");
+  CHECK(try_bulk({{"set_ids", bytes(std::vector<std::uint32_t>{0xFFFFFFFFu, 4})}}) == "bad_frame /set_ids");
+  CHECK(try_bulk({{"set_ids", "text"}}) == "bad_frame /set_ids");
+  CHECK(try_bulk({{"set_positions", bytes(std::vector<float>{1, 2, 3})}}) == "bad_frame /set_positions");
+  CHECK(try_bulk({{"set_positions", bytes(std::vector<float>{1, 2, 3, NAN})}}) == "bad_frame /set_positions");
+  CHECK(try_bulk({{"set_orientations", bytes(std::vector<float>(8, 0.5F))}}) == "bad_frame /set_orientations");
+  CHECK(try_bulk({{"set", {{{"id", 0}}}}}) == "bad_frame /set");
+  CHECK(try_bulk({{"set_positions", bytes(std::vector<float>{1, 2, 3, 4})}}) == "none");
+}
+
+TEST_CASE("explain speaks of the last frame") {
+  const Town town;
+  Session session = session_of(town.open());
+  CHECK(refusal([&] { session.explain({40, 0}); }) == "sequence ");
+  tell(session, town.frame(0));
+  const ViewerId viewer = session.views()[0].viewer;
+  CHECK(refusal([&] { session.explain({viewer, 7777}); }) == "unknown_object /object");
+  CHECK(refusal([&] { session.explain({7777, 0}); }) == "unknown_object /viewer");
+  int visible = 0;
+  for (const ObjectId id : session.answers().views[0].visible) {
+    visible += session.explain({viewer, id}).verdict == Explanation::Verdict::visible;
+  }
+  CHECK(visible > 0);
+}
