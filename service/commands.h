@@ -22,6 +22,8 @@ void add_import_command(CLI::App& app, Action& action);
 void add_methods_command(CLI::App& app, Action& action);
 void add_bake_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
-void add_serve_command(CLI::App& app, Action& action);  // in server/, where that is built
+// In server/, where that is built.
+void add_serve_command(CLI::App& app, Action& action);
+void add_view_command(CLI::App& app, Action& action);
 
 }  // namespace gridcull

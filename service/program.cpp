@@ -76,6 +76,7 @@ int run_program(int argc, const char* const* argv) {
   add_bench_command(app, action);
 #ifdef GRIDCULL_WITH_SERVER
   add_serve_command(app, action);
+  add_view_command(app, action);
 #endif
   try {
     app.parse(argc, argv);
@@ -86,7 +87,7 @@ int run_program(int argc, const char* const* argv) {
   }
   if (!action)
     return refuse(
-        "a command is missing: run, check, info, explain, make, import, methods, bake, bench or serve (see gridcull --help)");
+        "a command is missing: run, check, info, explain, make, import, methods, bake, bench, serve or view (see gridcull --help)");
   return perform(action);
 }
 

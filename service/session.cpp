@@ -6,6 +6,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/core/exact.h"
+#include "gridcull/grid/engine.h"
 
 namespace gridcull {
 namespace {
@@ -50,6 +51,14 @@ void Session::check_count(const Frame& frame) const {
   if (now > frame.remove.size()) refuse_many(now - frame.remove.size(), limits_.objects);
 }
 
+void Session::begin_drawing() {
+  auto* engine = drawing_ == no_id ? nullptr : dynamic_cast<GridEngine*>(culler_.get());
+  has_drawn_ = engine != nullptr;
+  if (engine == nullptr) return;
+  drawn_.begin(drawing_);
+  engine->draw_next(drawing_, &drawn_);
+}
+
 const FrameReply& Session::apply(const FrameRequest& request) {
   if (seq_ > 0 && request.seq == seq_) {
     // Again, and after a resume in full, since nobody knows what has arrived.
@@ -63,6 +72,7 @@ const FrameReply& Session::apply(const FrameRequest& request) {
   }
   check_count(request.frame);
   source_.frame = &request.frame;
+  begin_drawing();
   const std::optional<double> before = world().time();
   try {
     replay_->step();

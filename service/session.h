@@ -10,6 +10,7 @@
 
 #include "gridcull/core/culler.h"
 #include "gridcull/core/hash.h"
+#include "gridcull/service/drawn_view.h"
 #include "gridcull/service/explain.h"
 #include "gridcull/service/session_record.h"
 #include "gridcull/service/wire_request.h"
@@ -71,6 +72,12 @@ class Session {
   /// A client that may have missed answers is there again: the next answer is full.
   void resume() { fresh_ = true; }
 
+  /// From the next frame on this viewer's cells and volumes are kept for drawing; no_id: nobody's. Only the grid engine
+  /// draws.
+  void draw(ViewerId viewer) { drawing_ = viewer; }
+  /// Of the last frame; nullptr where nothing was drawn.
+  const DrawnView* drawn() const { return has_drawn_ ? &drawn_ : nullptr; }
+
   /// Of the last frame. Throws Error(sequence) before the first and Error(unknown_object).
   Explanation explain(const ExplainRequest& request) const;
 
@@ -85,6 +92,7 @@ class Session {
     }
   };
 
+  void begin_drawing();
   void check_count(const Frame& frame) const;
   void make_reply(const FrameRequest& request);
   void forget(const std::vector<ViewerId>& viewers);
@@ -103,6 +111,9 @@ class Session {
   std::map<ViewerId, std::vector<ObjectId>> told_;  // what each viewer's last answer amounts to
   FrameReply reply_;
   StableHash hash_;
+  ViewerId drawing_ = no_id;
+  DrawnView drawn_;
+  bool has_drawn_ = false;
 };
 
 }  // namespace gridcull

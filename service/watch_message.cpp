@@ -74,13 +74,15 @@ Json watch_step(const Session& session, const Frame& frame) {
   for (const Answer& answer : session.answers().views) {
     answers.push_back({{"viewer", answer.viewer}, {"visible", answer.visible}});
   }
-  return {{"type", "step"},
-          {"seq", session.seq()},
-          {"time", frame.time},
-          {"frame", Json::parse(frame_text(frame, n))},
-          {"views", std::move(views)},
-          {"answers", std::move(answers)},
-          {"stats", stats_json(session.answers().stats)}};
+  Json step{{"type", "step"},
+            {"seq", session.seq()},
+            {"time", frame.time},
+            {"frame", Json::parse(frame_text(frame, n))},
+            {"views", std::move(views)},
+            {"answers", std::move(answers)},
+            {"stats", stats_json(session.answers().stats)}};
+  if (const DrawnView* drawn = session.drawn()) step["drawn"] = drawn->json(n);
+  return step;
 }
 
 }  // namespace gridcull

@@ -102,11 +102,18 @@ FrameRequest read_frame_request(const WireRequest& request, int dimension) {
   return out;
 }
 
-SessionKey read_key(const WireRequest& request, bool token_needed) {
+SessionKey read_resume(const WireRequest& request) {
   const JsonRef root = request.root();
   root.only_keys({"type", "session", "token"});
-  return {std::string(root.at("session").string()),
-          token_needed ? std::string(root.at("token").string()) : text_or(root, "token")};
+  return {std::string(root.at("session").string()), std::string(root.at("token").string())};
+}
+
+WatchRequest read_watch(const WireRequest& request) {
+  const JsonRef root = request.root();
+  root.only_keys({"type", "session", "token", "viewer"});
+  WatchRequest out{{std::string(root.at("session").string()), text_or(root, "token")}};
+  if (const auto viewer = root.find("viewer")) out.viewer = viewer->id();
+  return out;
 }
 
 ExplainRequest read_explain(const WireRequest& request) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -54,8 +55,13 @@ FrameRequest read_frame_request(const WireRequest& request, int dimension);
 struct SessionKey {
   std::string session{}, token{};
 };
-/// Of "resume" and "watch" (whose token may be left out).
-SessionKey read_key(const WireRequest& request, bool token_needed);
+SessionKey read_resume(const WireRequest& request);
+
+struct WatchRequest {
+  SessionKey key{};  ///< the token may be left out
+  ViewerId viewer = no_id;
+};
+WatchRequest read_watch(const WireRequest& request);
 
 struct ExplainRequest {
   ViewerId viewer = no_id;

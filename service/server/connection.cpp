@@ -118,7 +118,7 @@ void Connection::open(const WireRequest& request) {
 
 void Connection::resume(const WireRequest& request) {
   if (held_) throw Error(ErrorCode::sequence, "message: expected \"close\" before \"resume\"");
-  held_ = parts_.hub.resume(read_key(request, true), shared_from_this());
+  held_ = parts_.hub.resume(read_resume(request), shared_from_this());
   const std::lock_guard lock(held_->mutex);
   say({{"type", "resumed"}, {"seq", held_->session.seq()}});
 }
@@ -150,7 +150,7 @@ void Connection::apply_frame(const WireRequest& request) {
   }
   if (!is_new) return;
   note_frame(session, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  if (held_->watchers.empty()) return;
+  if (held_->watchers.empty()) return session.draw(no_id);
   const auto message = std::make_shared<const std::string>(watch_step(session, frame.frame).dump());
   std::erase_if(held_->watchers, [&](const auto& watcher) {
     const std::shared_ptr<SessionListener> there = watcher.lock();
@@ -172,19 +172,33 @@ void Connection::note_frame(const Session& session, double seconds) {
 }
 
 void Connection::explain_object(const WireRequest& request) {
-  const std::unique_lock lock = use_session();
-  say(explained_json(held_->session.explain(read_explain(request)), held_->session.dimension()));
+  // Those who watch may ask too.
+  const bool own = held_ || !watched_;
+  const std::unique_lock lock = own ? use_session() : std::unique_lock(watched_->mutex);
+  const Session& session = (own ? held_ : watched_)->session;
+  say(explained_json(session.explain(read_explain(request)), session.dimension()));
 }
 
 void Connection::watch(const WireRequest& request) {
-  const SessionKey key = read_key(request, false);
+  const auto [key, viewer] = read_watch(request);
   if (!parts_.options.token.empty() && !same_secret(parts_.options.token, key.token)) {
     throw Error(ErrorCode::forbidden, "message: /token: expected the server's token");
   }
-  watched_ = parts_.hub.find(key.session);
+  const std::shared_ptr<HeldSession> found = parts_.hub.find(key.session);
+  const bool again = found == watched_;
+  if (watched_ && !again) stop_watching();
+  watched_ = found;
   const std::lock_guard lock(watched_->mutex);
+  // One drawing a session: the last who chose a viewer.
+  if (viewer != no_id) watched_->session.draw(viewer);
   say(watch_start(watched_->session, key.session));
-  watched_->watchers.push_back(weak_from_this());
+  if (!again) watched_->watchers.push_back(weak_from_this());
+}
+
+void Connection::stop_watching() {
+  const std::lock_guard lock(watched_->mutex);
+  std::erase_if(watched_->watchers, [this](const auto& watcher) { return watcher.lock().get() == this; });
+  if (watched_->watchers.empty()) watched_->session.draw(no_id);
 }
 
 void Connection::close_session() {

@@ -75,6 +75,7 @@ class Connection final : public SessionListener, public std::enable_shared_from_
   void apply_frame(const WireRequest& request);
   void explain_object(const WireRequest& request);
   void watch(const WireRequest& request);
+  void stop_watching();
   void close_session();
   /// The session with its lock; refuses when there is none or somebody else has it.
   std::unique_lock<std::mutex> use_session() const;

@@ -10,7 +10,9 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <nlohmann/json.hpp>
 
+#include "gridcull/core/error.h"
 #include "gridcull/service/server/page.h"
+#include "gridcull/sim/text_file.h"
 
 namespace gridcull {
 
@@ -78,8 +80,19 @@ void HttpFront::answer() {
   if (path == "/v1/sessions") {
     return send(respond(request, http::status::ok, json, parts_.hub.list().dump() + "\n"));
   }
+  if (path == "/v1/trace/scene.json") return send_file(request, parts_.options.trace_scene);
+  if (path == "/v1/trace/frames.jsonl") return send_file(request, parts_.options.trace_frames);
   if (path == "/") return send(respond(request, http::status::ok, "text/html; charset=utf-8", page_text()));
   send(respond(request, http::status::not_found, plain, "not here: expected /, /healthz, /metrics or /v1/sessions\n"));
+}
+
+void HttpFront::send_file(const Request& request, const std::string& file) {
+  if (file.empty()) return send(respond(request, http::status::not_found, plain, "no trace: see gridcull view\n"));
+  try {
+    send(respond(request, http::status::ok, json, read_text(file)));
+  } catch (const Error& fault) {
+    send(respond(request, http::status::internal_server_error, plain, std::string(fault.what()) + "\n"));
+  }
 }
 
 bool HttpFront::upgrade(Request& request) {

@@ -33,6 +33,7 @@ class HttpFront : public std::enable_shared_from_this<HttpFront> {
 
   void read();
   void answer();
+  void send_file(const Request& request, const std::string& file);
   bool upgrade(Request& request);
   void send(Response&& response);
   static Response respond(const Request& request, boost::beast::http::status status, const char* type,

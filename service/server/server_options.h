@@ -23,6 +23,7 @@ struct ServerOptions {
   std::string token{};             ///< needed to open and watch; "": not
   std::vector<std::string> allowed_origins{};
   std::string record{};  ///< folder for the sessions' records; "": none
+  std::string trace_scene{}, trace_frames{};  ///< files that the page shows by itself; "": none
   double audit = 0.0;    ///< share of the answers that is held against the reference, 0 .. 1
 };
 

@@ -344,6 +344,37 @@ TEST_CASE("a watcher that does not read is let go; the session does not notice")
   CHECK(watcher.close_reason() == "too slow to watch");
 }
 
+TEST_CASE("a watcher sees the world, each frame, what a viewer's walk met, and why") {
+  RunningServer server;
+  RawSocket client(server.port());
+  const Json opened = client.ask(open_message());
+  client.ask(frame_message(1));
+  RawSocket watcher(server.port());
+  const Json watch{{"type", "watch"}, {"session", opened.at("session")}};
+  const Json world = watcher.ask(watch);
+  CHECK(world.at("seq") == 1);
+  CHECK(world.at("scene").at("objects").size() == open_message()["scene"]["objects"].size());
+  const Json answer = client.ask(frame_message(2));
+  Json step = watcher.receive();
+  CHECK(step.at("seq") == 2);
+  CHECK(step.at("answers") == answer.at("answers"));
+  CHECK(step.at("views").size() == answer.at("answers").size());
+  CHECK_FALSE(step.contains("drawn"));
+  Json choose = watch;
+  choose["viewer"] = answer.at("answers")[0].at("viewer");
+  CHECK(watcher.ask(choose).at("type") == "watching");
+  client.ask(frame_message(3));
+  step = watcher.receive();
+  CHECK(step.at("drawn").at("viewer") == choose["viewer"]);
+  CHECK(step.at("drawn").at("cells").contains("visited"));
+  CHECK(step.at("drawn").at("region").size() > 10);
+  const Json seen = answer.at("answers")[0].at("visible")[0];
+  const Json why = watcher.ask({{"type", "explain"}, {"viewer", choose["viewer"]}, {"object", seen}});
+  CHECK(why.at("verdict") == "visible");
+  CHECK(watcher.ask(frame_message(4)).at("code") == "sequence");  // watching is all it may do
+  CHECK(client.ask(frame_message(4)).at("type") == "pvs");
+}
+
 TEST_CASE("a server that stops says so, after the answer in hand") {
   RunningServer server;
   RawSocket client(server.port()), idle(server.port());
