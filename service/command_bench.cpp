@@ -29,8 +29,17 @@
 #include "gridcull/service/text.h"
 #include "gridcull/service/world_options.h"
 
+#ifdef GRIDCULL_WITH_SERVER
+#include "gridcull/service/server/load_bench.h"
+#include "gridcull/service/server/service_bench.h"
+#endif
+
 namespace gridcull {
 namespace {
+
+/// Ten thousand movers and a hundred viewers: people in the plane, drivers in a town, riders in a city.
+constexpr std::array service_scenes{"discs:10000:viewers=100:range=25", "town:40000:viewers=100:range=150",
+                                    "city:50:10000:viewers=100:range=100"};
 
 /// 3D reference of the stability suite: its worlds are small and every frame is judged.
 constexpr int stability_rays = 128;
@@ -52,6 +61,8 @@ struct BenchOptions {
   BenchSettings settings{};
   std::string out{};
   bool stability = false;
+  bool service = false;
+  double load = 0.0;  ///< seconds; 0: not asked for
   std::string figure{};
   std::vector<const CLI::Option*> settings_of_runs{};  ///< what not every kind of bench has a use for
 };
@@ -216,7 +227,45 @@ int bench_tbv(const BenchOptions& options) {
   return 0;
 }
 
+#ifdef GRIDCULL_WITH_SERVER
+int bench_wire(BenchOptions options) {
+  refuse_others(options, "--service", {"--repeats", "--frames"});
+  if (options.scenes.empty()) options.scenes.assign(service_scenes.begin(), service_scenes.end());
+  check_choice(options);
+  std::fputs(bench_head(options.settings).c_str(), stdout);
+  std::uint64_t done = 0;
+  std::vector<ServiceBenchResult> results;
+  for (const std::string& scene : options.scenes) {
+    Progress progress("frames, " + scene,
+                      options.settings.frames * static_cast<std::uint64_t>(options.settings.repeats));
+    results.push_back(bench_service(scene, options.settings.frames, options.settings.repeats, [&] {
+      progress.update(++done);
+      stop_if_interrupted();
+    }));
+    done = 0;
+  }
+  std::fputs(("\n" + service_bench_table(results)).c_str(), stdout);
+  return std::all_of(results.begin(), results.end(), [](const auto& r) { return r.same_answers; }) ? 0 : 1;
+}
+#endif
+
+#ifdef GRIDCULL_WITH_SERVER
+int bench_server_load(const BenchOptions& options) {
+  refuse_others(options, "--service-load", {});
+  LoadSettings settings;
+  settings.seconds = options.load;
+  std::fputs(bench_head(options.settings).c_str(), stdout);
+  const LoadResult result = bench_load(settings, [] { stop_if_interrupted(); });
+  std::fputs(load_text(settings, result).c_str(), stdout);
+  return result.asked == result.answered ? 0 : 1;
+}
+#endif
+
 int bench(BenchOptions options) {
+#ifdef GRIDCULL_WITH_SERVER
+  if (options.service) return bench_wire(std::move(options));
+  if (options.load > 0.0) return bench_server_load(options);
+#endif
   if (options.figure == tbv_figure) {
     refuse_scenes(options);
     refuse_others(options, "--figure " + options.figure, {"--repeats"});
@@ -292,6 +341,18 @@ void add_options(CLI::App& command, BenchOptions& o) {
       "instead of scenes: small worlds that go to a limit (thin walls, far origins, fast movers ...), every "
       "answer judged; a table a method");
   stability->excludes(scenes);
+#ifdef GRIDCULL_WITH_SERVER
+  command
+      .add_flag("--service", o.service,
+                "the same frames in this process and over loopback through a server, in turn (default scenes: 10,000 "
+                "movers and 100 viewers)")
+      ->excludes(stability);
+  add_positive(command, "--service-load", o.load, {1e6, "seconds above 0"},
+               "so long, 100 sessions of 500 objects at 10 frames a second: frames lost, latencies, memory")
+      .type_name("SECONDS")
+      ->excludes(stability)
+      ->excludes(scenes);
+#endif
   CLI::Option* const figure =
       command
           .add_option("--figure", o.figure,

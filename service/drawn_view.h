@@ -22,8 +22,8 @@ class DrawnView final : public DrawSink {
   void tbv(ObjectId object, const Vec3& centre, double radius, bool revealed) override;
   void region(std::span<const Vec2> outline) override { region_.assign(outline.begin(), outline.end()); }
 
-  /// `{"viewer", "cells": {"visited": [[low..., high...], ...], ...}, "volumes": [{"id", "centre", "radius", "revealed"}],
-  /// "region": [[x, y], ...]}`; empty parts are left out.
+  /// `{"viewer", "cells": {"visited": [[low..., high...], ...], ...}, "volumes": [{"id", "centre", "radius",
+  /// "revealed"}], "region": [[x, y], ...]}`; empty parts are left out.
   nlohmann::ordered_json json(int dimension) const;
 
  private:

@@ -87,7 +87,8 @@ int run_program(int argc, const char* const* argv) {
   }
   if (!action)
     return refuse(
-        "a command is missing: run, check, info, explain, make, import, methods, bake, bench, serve or view (see gridcull --help)");
+        "a command is missing: run, check, info, explain, make, import, methods, bake, bench, serve or view (see "
+        "gridcull --help)");
   return perform(action);
 }
 

@@ -15,8 +15,8 @@ constexpr int explain_rays = 512;
 
 void refuse_many(std::uint64_t count, std::uint64_t most) {
   if (count <= most) return;
-  throw Error(ErrorCode::limit, "message: expected at most " + std::to_string(most) + " objects, found " +
-                                    std::to_string(count));
+  throw Error(ErrorCode::limit,
+              "message: expected at most " + std::to_string(most) + " objects, found " + std::to_string(count));
 }
 
 /// The scene as it has to be recorded: with the grid that was chosen for it.
@@ -67,8 +67,8 @@ const FrameReply& Session::apply(const FrameRequest& request) {
     return reply_;
   }
   if (request.seq != seq_ + 1) {
-    throw Error(ErrorCode::sequence, "message: /seq: expected " + std::to_string(seq_ + 1) + ", found " +
-                                         std::to_string(request.seq));
+    throw Error(ErrorCode::sequence,
+                "message: /seq: expected " + std::to_string(seq_ + 1) + ", found " + std::to_string(request.seq));
   }
   check_count(request.frame);
   source_.frame = &request.frame;
@@ -124,7 +124,8 @@ Explanation Session::explain(const ExplainRequest& request) const {
   if (dimension() == 3 && !ExactRays::available()) {
     throw Error(ErrorCode::limit, "message: the 3D reference needs Embree, which this server was built without");
   }
-  const auto view = std::find_if(views().begin(), views().end(), [&](const View& v) { return v.viewer == request.viewer; });
+  const auto view =
+      std::find_if(views().begin(), views().end(), [&](const View& v) { return v.viewer == request.viewer; });
   if (view == views().end()) {
     throw Error(ErrorCode::unknown_object, "message: /viewer: expected the id of a viewer of the last frame, found " +
                                                std::to_string(request.viewer));

@@ -1,4 +1,5 @@
-// One client's world in the service: an engine, its frames, and what the client has been told. Knows nothing of sockets.
+// One client's world in the service: an engine, its frames, and what the client has been told. Knows nothing of
+// sockets.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +43,8 @@ class Session {
     std::uint64_t objects = 0;
   };
 
-  /// `record`: folder for the session's record; "" for none. Throws what prepare_scene() and methods throw, Error(limit)
-  /// for too many objects, Error(io).
+  /// `record`: folder for the session's record; "" for none. Throws what prepare_scene() and methods throw,
+  /// Error(limit) for too many objects, Error(io).
   Session(OpenRequest open, const Limits& limits, const std::string& record);
 
   int dimension() const { return world_.scene.dimension; }

@@ -8,8 +8,8 @@
 
 namespace gridcull {
 
-/// Each frame is handed to the system whole before add() returns, so that the death of the program loses none. (If it dies
-/// within add(), the last line may be cut; it was not acknowledged then.)
+/// Each frame is handed to the system whole before add() returns, so that the death of the program loses none. (If it
+/// dies within add(), the last line may be cut; it was not acknowledged then.)
 class SessionRecord {
  public:
   /// Makes the folder and writes the scene. Throws Error(io).

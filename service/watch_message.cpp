@@ -26,7 +26,8 @@ Json view_json(const View& view, int dimension) {
   } else {
     json["orientation"] = {q.w, q.x, q.y, q.z};
     if (view.frustum) {
-      json["frustum"] = {{"fov_y", view.frustum->fov_y}, {"aspect", view.frustum->aspect}, {"near", view.frustum->near}};
+      json["frustum"] = {
+          {"fov_y", view.frustum->fov_y}, {"aspect", view.frustum->aspect}, {"near", view.frustum->near}};
       if (std::isfinite(view.frustum->far)) json["frustum"]["far"] = view.frustum->far;
     }
   }
@@ -36,12 +37,9 @@ Json view_json(const View& view, int dimension) {
 }
 
 Json stats_json(const FrameStats& stats) {
-  return {{"total_us", stats.total_us},
-          {"discretise_us", stats.discretise_us},
-          {"traverse_us", stats.traverse_us},
-          {"positions_read", stats.positions_read},
-          {"tbv_active", stats.tbv_active},
-          {"tbv_revealed", stats.tbv_revealed}};
+  return {{"total_us", stats.total_us},       {"discretise_us", stats.discretise_us},
+          {"traverse_us", stats.traverse_us}, {"positions_read", stats.positions_read},
+          {"tbv_active", stats.tbv_active},   {"tbv_revealed", stats.tbv_revealed}};
 }
 
 Scene scene_now(const Session& session) {

@@ -9,8 +9,8 @@
 
 namespace gridcull {
 
-/// `{"type": "watching", "session", "name", "method", "dimension", "cell", "bounds", "seq", "scene": {gridcull.scene/1 as
-/// the world stands now, without viewers}}`.
+/// `{"type": "watching", "session", "name", "method", "dimension", "cell", "bounds", "seq", "scene": {gridcull.scene/1
+/// as the world stands now, without viewers}}`.
 nlohmann::ordered_json watch_start(const Session& session, const std::string& id);
 
 /// `{"type": "step", "seq", "time", "frame": {a frames/1 line}, "views": [...], "answers": [{"viewer", "visible"}],

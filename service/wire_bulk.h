@@ -12,9 +12,10 @@
 namespace gridcull {
 
 /// The keys of a frame that bulk moves take.
-inline constexpr const char *set_ids = "set_ids", *set_positions = "set_positions", *set_positions64 = "set_positions64",
-                            *set_headings = "set_headings", *set_headings64 = "set_headings64",
-                            *set_orientations = "set_orientations", *set_orientations64 = "set_orientations64";
+inline constexpr const char *set_ids = "set_ids", *set_positions = "set_positions",
+                            *set_positions64 = "set_positions64", *set_headings = "set_headings",
+                            *set_headings64 = "set_headings64", *set_orientations = "set_orientations",
+                            *set_orientations64 = "set_orientations64";
 
 /// The moves that `frame` has in bulk; none where it has none. Throws Error(bad_frame).
 std::vector<ObjectMove> read_bulk_moves(const JsonRef& frame, int dimension);

@@ -1,5 +1,6 @@
-// Why a check of its own: the JSON library's reader takes a chunked string inside a chunked string inside ... by recursion,
-// so that a megabyte of 0x7F would overflow the stack. Chunked strings and tags have no use here and are refused.
+// Why a check of its own: the JSON library's reader takes a chunked string inside a chunked string inside ... by
+// recursion, so that a megabyte of 0x7F would overflow the stack. Chunked strings and tags have no use here and are
+// refused.
 #include "gridcull/sim/cbor_check.h"
 
 #include <cstdint>
@@ -26,7 +27,8 @@ class Checker {
       if (std::string fault = item(); !fault.empty()) return "at byte " + std::to_string(at_) + ": " + fault;
       close_full();
     } while (!open_.empty());
-    return at_ == bytes_.size() ? "" : "expected one item, found " + std::to_string(bytes_.size() - at_) + " bytes more";
+    return at_ == bytes_.size() ? ""
+                                : "expected one item, found " + std::to_string(bytes_.size() - at_) + " bytes more";
   }
 
  private:
@@ -39,7 +41,8 @@ class Checker {
     if (is_key && major != 3) return "expected a text as key";
     ++at_;
     std::uint64_t value = 0;
-    if (!argument(info, value)) return "expected a length or value, found additional information " + std::to_string(info);
+    if (!argument(info, value))
+      return "expected a length or value, found additional information " + std::to_string(info);
     count_one();
     switch (major) {
       case 2:

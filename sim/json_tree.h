@@ -1,5 +1,5 @@
-// JSON, as text or as CBOR, as a read-only tree with checked access: every refusal names source, pointer, what was expected and
-// what stood there.
+// JSON, as text or as CBOR, as a read-only tree with checked access: every refusal names source, pointer, what was
+// expected and what stood there.
 #pragma once
 
 #include <cstdint>

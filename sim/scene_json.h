@@ -14,7 +14,8 @@ Scene read_scene(const JsonRef& json);
 /// A frame's parts and time; other keys are the caller's to refuse. `where` is left empty.
 Frame read_frame(const JsonRef& json, int dimension);
 
-/// normalised() until it stays as it is, so that what is written reads back with the same bits. Throws Error(bad_scene).
+/// normalised() until it stays as it is, so that what is written reads back with the same bits. Throws
+/// Error(bad_scene).
 Quat settled(Quat q);
 
 SceneObject read_object(const JsonRef& json, int dimension);

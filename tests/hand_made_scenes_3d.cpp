@@ -7,6 +7,16 @@ SceneBuilder scene(std::string name) { return {"3d: " + std::move(name), 3}; }
 Shape cuboid(double x, double y, double z) { return Cuboid{{x, y, z}}; }
 Shape sphere(double radius) { return Sphere{radius}; }
 
+/// A flat prism, about round.
+Shape disc(double radius, double height) {
+  Prism prism{{}, height};
+  for (int i = 0; i < 16; ++i) {
+    const Rotation turn = rotation_of(turn_about_z(i * std::numbers::pi / 8.0));
+    prism.vertices.emplace_back(radius * turn.x.x, radius * turn.x.y);
+  }
+  return prism;
+}
+
 /// Eight corners of an octahedron-like crystal of this half width.
 Shape crystal(double r) {
   return Convex{{{r, 0, 0}, {-r, 0, 0}, {0, r, 0}, {0, -r, 0}, {0, 0, r}, {0, 0, -r}, {0, 0, 0}}};
@@ -48,6 +58,14 @@ void add_plain(std::vector<HandMadeScene>& out) {
                     .object(2, sphere(4.5), {20, 0, 0})
                     .sees({0, 2})
                     .hides({1}));
+  // Its front is hidden by the small ball; what shows of it stands before the disc, at depths on both sides of the
+  // disc's: a slice of it that is tested after the disc has entered is lost.
+  out.push_back(scene("a ball that pokes through a disc shows a ring before it")
+                    .eye({0, 0, 0})
+                    .object(0, sphere(0.75), {0, 0, 3})
+                    .object(1, sphere(3), {0, 0, 10})
+                    .object(2, disc(2.75, 0.1), {0, 0, 7.9})
+                    .sees({0, 1, 2}));
   out.push_back(scene("abutting boxes leave no gap, not even where four meet")
                     .eye({0, 0, 0})
                     .object(0, cuboid(2, 4, 4), {10, 2, 2})

@@ -57,7 +57,8 @@ TEST_CASE("CBOR that lies or has no use here is refused, however long it claims 
 }
 
 TEST_CASE("UTF-8: nothing overlong, no surrogates, nothing beyond U+10FFFF") {
-  for (const char* good : {"", "a", "\xc2\x80", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"}) {
+  for (const char* good :
+       {"", "a", "\xc2\x80", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"}) {
     CHECK(is_utf8(good));
   }
   for (const char* bad : {"\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80",
@@ -68,7 +69,8 @@ TEST_CASE("UTF-8: nothing overlong, no surrogates, nothing beyond U+10FFFF") {
 
 TEST_CASE("whatever passes the check is read or refused in words, never worse") {
   Random random(7);
-  const std::string seed = cbor_of(R"({"type": "frame", "seq": 3, "time": 0.5, "set": [{"id": 1, "position": [1, 2]}]})");
+  const std::string seed =
+      cbor_of(R"({"type": "frame", "seq": 3, "time": 0.5, "set": [{"id": 1, "position": [1, 2]}]})");
   int read = 0;
   for (int round = 0; round < 20000; ++round) {
     std::string bytes = seed;

@@ -54,9 +54,11 @@ int serve(ServeOptions options) {
 void add_serve_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ServeOptions>();
   ServerOptions& server = options->server;
-  CLI::App& command = *app.add_subcommand("serve", "Answer simulators over WebSocket, frame by frame (gridcull.wire/1)");
+  CLI::App& command =
+      *app.add_subcommand("serve", "Answer simulators over WebSocket, frame by frame (gridcull.wire/1)");
   const std::uint64_t most = std::uint64_t{1} << 32;
-  add_text(command, "--address", server.address, "an IP address", "where to listen (default 127.0.0.1: this machine only)")
+  add_text(command, "--address", server.address, "an IP address",
+           "where to listen (default 127.0.0.1: this machine only)")
       .type_name("IP");
   add_whole(command, "--port", server.port, {0, 65535, "a port, 0 .. 65535"}, "0 picks a free one (default 8080)");
   add_whole(command, "--threads", server.threads, {1, 256, "1 .. 256"}, "sessions that compute at once (default 2)");

@@ -44,7 +44,8 @@ void add_view_command(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand("view", "Look at a world's files in a browser");
   add_text(command, "SCENE", options->trace_scene, "a file name", "scene file (.json, .json.gz)").required();
   add_text(command, "--frames", options->trace_frames, "a file name", "frames file (.jsonl, .jsonl.gz)");
-  add_text(command, "--address", options->address, "an IP address", "where to listen (default 127.0.0.1)").type_name("IP");
+  add_text(command, "--address", options->address, "an IP address", "where to listen (default 127.0.0.1)")
+      .type_name("IP");
   add_whole(command, "--port", options->port, {0, 65535, "a port, 0 .. 65535"}, "default 0: any that is free");
   command.footer(
       "Open the address that it prints. Ctrl-C ends it.\n\n"

@@ -33,9 +33,8 @@ Connection::~Connection() {
 }
 
 void Connection::start(Request request) {
-  asio::dispatch(stream_.get_executor(), [self = shared_from_this(), request = std::move(request)] {
-    self->accept(request);
-  });
+  asio::dispatch(stream_.get_executor(),
+                 [self = shared_from_this(), request = std::move(request)] { self->accept(request); });
 }
 
 void Connection::accept(const Request& request) {
@@ -65,8 +64,9 @@ void Connection::on_read(beast::error_code fault) {
   if (fault) return drop();
   if (closing_ || ended_) return;
   if (incoming_.size() > parts_.options.max_message) {
-    refuse(Error(ErrorCode::limit, "message: expected at most " + std::to_string(parts_.options.max_message) + " bytes"),
-           std::nullopt);
+    refuse(
+        Error(ErrorCode::limit, "message: expected at most " + std::to_string(parts_.options.max_message) + " bytes"),
+        std::nullopt);
     return close(websocket::close_code::too_big, "the message is too big");
   }
   if (stream_.is_message_done()) {
@@ -236,9 +236,8 @@ void Connection::watched(std::shared_ptr<const std::string> message) {
 }
 
 void Connection::end(const std::string& reason) {
-  asio::post(stream_.get_executor(), [self = shared_from_this(), reason] {
-    self->close(websocket::close_code::going_away, reason);
-  });
+  asio::post(stream_.get_executor(),
+             [self = shared_from_this(), reason] { self->close(websocket::close_code::going_away, reason); });
 }
 
 void Connection::say(const nlohmann::ordered_json& message) {

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-
 #include <utility>  // before Asio: Boost 1.74 does not include it in C++20
 
 #include <boost/asio/steady_timer.hpp>
@@ -16,7 +15,6 @@
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
-
 #include <nlohmann/json_fwd.hpp>
 
 #include "gridcull/service/server/audit.h"

@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <memory>
-
 #include <utility>  // before Asio: Boost 1.74 does not include it in C++20
 
 #include <boost/beast/core/flat_buffer.hpp>

@@ -58,7 +58,8 @@ std::shared_ptr<HeldSession> Hub::open(OpenRequest request, const std::shared_pt
 std::shared_ptr<HeldSession> Hub::find(const std::string& id) const {
   const std::lock_guard lock(mutex_);
   const auto found = sessions_.find(id);
-  if (found == sessions_.end()) throw Error(ErrorCode::forbidden, "message: expected a session that is there and its token");
+  if (found == sessions_.end())
+    throw Error(ErrorCode::forbidden, "message: expected a session that is there and its token");
   return found->second;
 }
 

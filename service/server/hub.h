@@ -36,8 +36,8 @@ struct HeldSession {
   const SessionKey key;
   std::mutex mutex;
   Session session;
-  std::weak_ptr<SessionListener> client{};                        ///< nobody: it waits for its client
-  std::chrono::steady_clock::time_point left{};                   ///< when its client went
+  std::weak_ptr<SessionListener> client{};       ///< nobody: it waits for its client
+  std::chrono::steady_clock::time_point left{};  ///< when its client went
   std::vector<std::weak_ptr<SessionListener>> watchers{};
 };
 

@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include <prometheus/text_serializer.h>
-
 #include <unistd.h>
 
 namespace gridcull {
@@ -22,7 +21,8 @@ prometheus::Histogram& histogram(prometheus::Registry& registry, const char* nam
   return prometheus::BuildHistogram().Name(name).Help(help).Register(registry).Add({}, bounds);
 }
 
-/// Resident bytes of this process, 0 where the system does not say.
+}  // namespace
+
 double resident_bytes() {
   std::FILE* file = std::fopen("/proc/self/statm", "r");
   if (file == nullptr) return 0.0;
@@ -31,8 +31,6 @@ double resident_bytes() {
   std::fclose(file);
   return read == 2 ? static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0.0;
 }
-
-}  // namespace
 
 Metrics::Metrics()
     : rejected_(prometheus::BuildCounter()

@@ -1,5 +1,5 @@
-// A page from elsewhere may have its own name point to this machine (DNS rebinding): then Origin and Host agree. A server on
-// the loopback address knows all its names, so there a Host that agrees is not enough.
+// A page from elsewhere may have its own name point to this machine (DNS rebinding): then Origin and Host agree. A
+// server on the loopback address knows all its names, so there a Host that agrees is not enough.
 #include "gridcull/service/server/origins.h"
 
 #include <algorithm>

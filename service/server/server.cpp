@@ -5,9 +5,8 @@
 #include <chrono>
 #include <mutex>
 #include <thread>
-#include <vector>
-
 #include <utility>  // before Asio: Boost 1.74 does not include it in C++20
+#include <vector>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 #include <thread>
-
 #include <utility>  // before Asio: Boost 1.74 does not include it in C++20
 
 #include <boost/asio/connect.hpp>

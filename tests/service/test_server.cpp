@@ -123,7 +123,8 @@ TEST_CASE("a lost connection loses nothing: resume, and answers again") {
   CHECK(second.wait_for_close() == 1008);
   CHECK(third.ask(frame_message(3)).at("type") == "pvs");
   RawSocket thief(server.port());
-  CHECK(thief.ask({{"type", "resume"}, {"session", opened.at("session")}, {"token", "guess"}}).at("code") == "forbidden");
+  CHECK(thief.ask({{"type", "resume"}, {"session", opened.at("session")}, {"token", "guess"}}).at("code") ==
+        "forbidden");
   CHECK(thief.ask({{"type", "resume"}, {"session", "none"}, {"token", "guess"}}).at("code") == "forbidden");
   CHECK(third.ask({{"type", "close"}}).at("type") == "closed");
   CHECK(thief.ask({{"type", "resume"}, {"session", opened.at("session")}, {"token", opened.at("token")}}).at("code") ==
@@ -173,7 +174,8 @@ TEST_CASE("limits and tokens: each refusal has its code, and the connection live
   CHECK(other.ask(open).at("code") == "limit");
   CHECK(other.ask(frame_message(1)).at("code") == "sequence");
   CHECK(other.ask({{"type", "watch"}, {"session", opened.at("session")}}).at("code") == "forbidden");
-  CHECK(other.ask({{"type", "watch"}, {"session", opened.at("session")}, {"token", "sesame"}}).at("type") == "watching");
+  CHECK(other.ask({{"type", "watch"}, {"session", opened.at("session")}, {"token", "sesame"}}).at("type") ==
+        "watching");
   CHECK(other.ask({{"type", "sing"}}).at("code") == "bad_message");
   client.ask(frame_message(1));
   CHECK(other.receive().at("type") == "step");
@@ -210,7 +212,9 @@ TEST_CASE("nothing that a client sends harms another") {
   };
   SUBCASE("JSON 10,000 deep") { refused(std::string(10'000, '['), true, "bad_message"); }
   SUBCASE("CBOR of nested chunks") { refused(std::string(100'000, '\x7f'), false, "bad_message"); }
-  SUBCASE("CBOR whose lengths lie") { refused("\xa1\x64type\x7b\x7f\xff\xff\xff\xff\xff\xff\xff", false, "bad_message"); }
+  SUBCASE("CBOR whose lengths lie") {
+    refused("\xa1\x64type\x7b\x7f\xff\xff\xff\xff\xff\xff\xff", false, "bad_message");
+  }
   SUBCASE("nothing") { refused("", true, "bad_message"); }
   SUBCASE("a frame without a session") { refused(frame_message(1).dump(), true, "sequence"); }
   SUBCASE("text that is not UTF-8") {
@@ -425,8 +429,10 @@ TEST_CASE("an audit judges answers in the background and finds nothing amiss") {
   bool judged = false;
   for (int i = 0; i < 100 && !judged; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    judged = http_get(server.port(), "/metrics").body.find("\ngridcull_audited_answers_total 20\n") != std::string::npos;
+    judged =
+        http_get(server.port(), "/metrics").body.find("\ngridcull_audited_answers_total 20\n") != std::string::npos;
   }
   CHECK(judged);
-  CHECK(http_get(server.port(), "/metrics").body.find("\ngridcull_audit_missed_objects_total 0\n") != std::string::npos);
+  CHECK(http_get(server.port(), "/metrics").body.find("\ngridcull_audit_missed_objects_total 0\n") !=
+        std::string::npos);
 }
