@@ -59,7 +59,7 @@ void Session::begin_drawing() {
   engine->draw_next(drawing_, &drawn_);
 }
 
-const FrameReply& Session::apply(const FrameRequest& request) {
+const FrameReply& Session::apply(FrameRequest request) {
   if (seq_ > 0 && request.seq == seq_) {
     // Again, and after a resume in full, since nobody knows what has arrived.
     if (fresh_) make_reply(request);
@@ -71,12 +71,12 @@ const FrameReply& Session::apply(const FrameRequest& request) {
                 "message: /seq: expected " + std::to_string(seq_ + 1) + ", found " + std::to_string(request.seq));
   }
   check_count(request.frame);
-  source_.frame = &request.frame;
+  source_.frame = std::move(request.frame);
   begin_drawing();
   const std::optional<double> before = world().time();
   try {
     replay_->step();
-    if (record_) record_->add(request.frame);
+    if (record_) record_->add(last_frame());
   } catch (...) {
     // The world refuses a frame before it changes anything; whatever else fails leaves half a frame.
     broken_ = world().time() != before;
@@ -84,7 +84,7 @@ const FrameReply& Session::apply(const FrameRequest& request) {
   }
   seq_ = request.seq;
   for (const Answer& answer : answers().views) hash_.add(answer);
-  forget(request.frame.drop_viewers);
+  forget(last_frame().drop_viewers);
   make_reply(request);
   return reply_;
 }

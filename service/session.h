@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gridcull/core/culler.h"
@@ -67,7 +68,9 @@ class Session {
   /// Applies the next frame, or answers the last one again. A refusal changes nothing and does not use up the number:
   /// Error(sequence), Error(bad_frame), Error(unknown_object), Error(limit). After any other exception the session
   /// is broken().
-  const FrameReply& apply(const FrameRequest& request);
+  const FrameReply& apply(FrameRequest request);
+  /// The last applied frame.
+  const Frame& last_frame() const { return replay_->last_frame(); }
   bool broken() const { return broken_; }
 
   /// A client that may have missed answers is there again: the next answer is full.
@@ -86,9 +89,9 @@ class Session {
   /// Hands the frame in hand to the replay.
   class OneFrame final : public FrameSource {
    public:
-    const Frame* frame = nullptr;
+    Frame frame{};
     bool next(Frame& out) override {
-      out = *frame;
+      out = std::move(frame);
       return true;
     }
   };

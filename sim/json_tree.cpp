@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gridcull/sim/cbor_check.h"
+#include "gridcull/sim/cbor_reader.h"
 #include "gridcull/sim/json_text.h"
 
 namespace gridcull {
@@ -47,17 +47,13 @@ class JsonTree::Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool number_unsigned(number_unsigned_t value) override { return leaf(Kind::integer, static_cast<double>(value)); }
   bool number_float(number_float_t value, const string_t&) override { return leaf(Kind::number, value); }
   bool string(string_t& value) override { return text(Kind::string, value); }
-  bool binary(binary_t& value) override {
-    return text(Kind::bytes, std::string_view(reinterpret_cast<const char*>(value.data()), value.size()));
-  }
+  bool binary(binary_t&) override { return false; }  // JSON has none
   bool start_object(std::size_t) override { return open(Kind::object); }
   bool start_array(std::size_t) override { return open(Kind::array); }
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(string_t& value) override {
-    key_at_ = static_cast<std::uint32_t>(tree_.strings_.size());
-    key_size_ = static_cast<std::uint32_t>(value.size());
-    tree_.strings_ += value;
+    set_key(value);
     return true;
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& fault) override {
@@ -71,15 +67,10 @@ class JsonTree::Builder final : public nlohmann::json_sax<nlohmann::json> {
     throw Error(ErrorCode::bad_message, tree_.source_ + ": expected JSON: " + line);
   }
 
- private:
-  Node& push(Kind kind) {
-    if (!open_.empty()) ++tree_.nodes_[open_.back()].text.size;
-    Node& node = tree_.nodes_.emplace_back();
-    node.kind = kind;
-    node.end = static_cast<std::uint32_t>(tree_.nodes_.size());
-    node.key_at = key_at_;
-    node.key_size = key_size_;
-    return node;
+  void set_key(std::string_view value) {
+    key_at_ = static_cast<std::uint32_t>(tree_.strings_.size());
+    key_size_ = static_cast<std::uint32_t>(value.size());
+    tree_.strings_ += value;
   }
   bool text(Kind kind, std::string_view value) {
     const auto at = static_cast<std::uint32_t>(tree_.strings_.size());
@@ -105,6 +96,17 @@ class JsonTree::Builder final : public nlohmann::json_sax<nlohmann::json> {
     open_.pop_back();
     return true;
   }
+
+ private:
+  Node& push(Kind kind) {
+    if (!open_.empty()) ++tree_.nodes_[open_.back()].text.size;
+    Node& node = tree_.nodes_.emplace_back();
+    node.kind = kind;
+    node.end = static_cast<std::uint32_t>(tree_.nodes_.size());
+    node.key_at = key_at_;
+    node.key_size = key_size_;
+    return node;
+  }
   /// Pointer to the value that would come next.
   std::string place() const {
     if (open_.empty()) return "/";
@@ -129,6 +131,26 @@ class JsonTree::Builder final : public nlohmann::json_sax<nlohmann::json> {
   std::uint32_t key_at_ = 0, key_size_ = 0;
 };
 
+/// The same from CBOR.
+class JsonTree::FromCbor final : public CborSink {
+ public:
+  explicit FromCbor(Builder& builder) : builder_(builder) {}
+
+  void null() override { builder_.null(); }
+  void boolean(bool value) override { builder_.boolean(value); }
+  void integer(double value) override { builder_.leaf(Kind::integer, value); }
+  void number(double value) override { builder_.leaf(Kind::number, value); }
+  void text(std::string_view value) override { builder_.text(Kind::string, value); }
+  void bytes(std::string_view value) override { builder_.text(Kind::bytes, value); }
+  void key(std::string_view value) override { builder_.set_key(value); }
+  void start_array() override { builder_.open(Kind::array); }
+  void start_map() override { builder_.open(Kind::object); }
+  void end() override { builder_.close(); }
+
+ private:
+  Builder& builder_;
+};
+
 JsonTree::JsonTree(std::string_view text, std::string source, ErrorCode code, Encoding encoding)
     : source_(std::move(source)), code_(code) {
   if (text.size() >= std::numeric_limits<std::uint32_t>::max()) {
@@ -139,10 +161,10 @@ JsonTree::JsonTree(std::string_view text, std::string source, ErrorCode code, En
     nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
     return;
   }
-  if (const std::string fault = fault_of_cbor(text, deepest); !fault.empty()) {
+  FromCbor sink(builder);
+  if (const std::string fault = read_cbor(text, deepest, sink); !fault.empty()) {
     throw Error(ErrorCode::bad_message, source_ + ": expected CBOR: " + fault);
   }
-  nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::cbor);
 }
 
 JsonRef JsonTree::root() const { return {*this, 0}; }

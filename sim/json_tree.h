@@ -46,6 +46,7 @@ class JsonTree {
  private:
   friend class JsonRef;
   class Builder;
+  class FromCbor;
   std::string pointer(std::uint32_t node) const;
   std::string_view key(std::uint32_t node) const;
 

@@ -30,10 +30,7 @@ bool Replay::take_frame() {
 bool Replay::step() {
   if (!take_frame()) return false;
   before_.clear();
-  for (const ObjectMove& move : current_.set) {
-    // An unknown id is refused by apply(); one that is added in this frame has no place before it.
-    before_.push_back(world_.has(move.id) ? world_.object(move.id).pose.position : Vec3(0.0));
-  }
+  if (feed_ == Feed::pull) note_places();
   const std::optional<double> last = world_.time();
   world_.apply(current_);
   feed_objects(last ? current_.time - *last : 0.0);
@@ -41,6 +38,13 @@ bool Replay::step() {
   culler_.query(current_.time, views_, answers_);
   ++next_frame_;
   return true;
+}
+
+void Replay::note_places() {
+  for (const ObjectMove& move : current_.set) {
+    // An unknown id is refused by apply(); one that is added in this frame has no place before it.
+    before_.push_back(world_.has(move.id) ? world_.object(move.id).pose.position : Vec3(0.0));
+  }
 }
 
 void Replay::feed_objects(double seconds) {
@@ -53,8 +57,8 @@ void Replay::feed_objects(double seconds) {
   }
   std::sort(added.begin(), added.end());
   for (std::size_t i = 0; i < current_.set.size(); ++i) {
-    if (!std::binary_search(added.begin(), added.end(), current_.set[i].id)) {
-      feed_move(world_.object(current_.set[i].id), before_[i], seconds);
+    if (added.empty() || !std::binary_search(added.begin(), added.end(), current_.set[i].id)) {
+      feed_move(world_.set_object(i), feed_ == Feed::pull ? before_[i] : Vec3(0.0), seconds);
     }
   }
 }

@@ -38,6 +38,7 @@ class Replay final : private PositionSource {
   /// Of the last step:
   std::uint64_t frame() const { return next_frame_ - 1; }
   double time() const { return world_.time().value_or(0.0); }
+  const Frame& last_frame() const { return current_; }
   const World& world() const { return world_; }
   std::span<const View> views() const { return views_; }
   const Answers& answers() const { return answers_; }
@@ -45,6 +46,7 @@ class Replay final : private PositionSource {
  private:
   Pose pose(ObjectId object) override;
   bool take_frame();
+  void note_places();
   void feed_objects(double seconds);
   void feed_move(const Object& object, const Vec3& before, double seconds);
 
@@ -54,7 +56,7 @@ class Replay final : private PositionSource {
   World world_;
   Frame current_{};
   std::uint64_t next_frame_ = 0;
-  std::vector<Vec3> before_{};  ///< positions of current_.set before the frame
+  std::vector<Vec3> before_{};  ///< pull: positions of current_.set before the frame
   std::vector<View> views_{};
   Answers answers_{};
 };

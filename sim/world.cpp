@@ -92,7 +92,9 @@ void World::check_objects(const Frame& frame, Plan& plan) const {
   const bool ascending = ids_ascend(frame.set);
   for (std::size_t i = 0; i < frame.set.size(); ++i) {
     const ObjectId id = frame.set[i].id;
-    if (!has_after(id, plan)) refuse_unknown(at(frame, "set", i, "/id"), "an object", id);
+    const bool as_before = i < set_places_.size() && set_places_[i] < objects_.size() &&
+                           objects_[set_places_[i]].id == id && frame.remove.empty();
+    if (!as_before && !has_after(id, plan)) refuse_unknown(at(frame, "set", i, "/id"), "an object", id);
     if (!ascending && !plan.set.insert(id).second) refuse_twice(at(frame, "set", i, "/id"), id);
   }
 }
@@ -135,13 +137,24 @@ void World::apply(const Frame& frame) {
   time_ = frame.time;
   for (const ObjectId id : frame.remove) erase(id);
   for (const SceneObject& object : frame.add) insert(object.object);
-  for (const ObjectMove& move : frame.set) {
-    Pose& pose = objects_[index_.at(move.id)].pose;
+  find_set(frame);
+  for (std::size_t i = 0; i < frame.set.size(); ++i) {
+    const ObjectMove& move = frame.set[i];
+    Pose& pose = objects_[set_places_[i]].pose;
     if (move.position) pose.position = *move.position;
     if (move.orientation) pose.orientation = *move.orientation;
   }
   for (const ViewerId id : frame.drop_viewers) viewers_.erase(id);
   for (SceneViewer& viewer : plan.viewers) viewers_.insert_or_assign(viewer.id, std::move(viewer));
+}
+
+/// A simulator names its objects in the same order frame after frame: the last place is tried first.
+void World::find_set(const Frame& frame) {
+  set_places_.resize(frame.set.size(), objects_.size());
+  for (std::size_t i = 0; i < frame.set.size(); ++i) {
+    std::size_t& place = set_places_[i];
+    if (place >= objects_.size() || objects_[place].id != frame.set[i].id) place = index_.at(frame.set[i].id);
+  }
 }
 
 void World::insert(const Object& object) {

@@ -33,6 +33,8 @@ class World {
   bool has(ObjectId id) const { return index_.contains(id); }
   /// Throws Error(unknown_object).
   const Object& object(ObjectId id) const;
+  /// The object that the last applied frame's set[i] named; valid until the next apply().
+  const Object& set_object(std::size_t i) const { return objects_[set_places_[i]]; }
 
   /// The viewers' questions in viewer-id order. A viewer whose object is gone is left out until it is back.
   std::vector<View> views() const;
@@ -43,6 +45,7 @@ class World {
 
  private:
   struct Plan;
+  void find_set(const Frame& frame);
   void check_objects(const Frame& frame, Plan& plan) const;
   void check_viewers(const Frame& frame, Plan& plan) const;
   bool has_after(ObjectId id, const Plan& plan) const;
@@ -54,6 +57,7 @@ class World {
   std::vector<Object> objects_{};
   std::unordered_map<ObjectId, std::size_t> index_{};  ///< id -> place in objects_; looked up, never walked
   std::map<ViewerId, SceneViewer> viewers_{};
+  std::vector<std::size_t> set_places_{};  ///< in objects_, of the last frame's set
 };
 
 }  // namespace gridcull

@@ -136,10 +136,10 @@ void Connection::apply_frame(const WireRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   const std::unique_lock lock = use_session();
   Session& session = held_->session;
-  const FrameRequest frame = read_frame_request(request, session.dimension());
+  FrameRequest frame = read_frame_request(request, session.dimension());
   const bool is_new = frame.seq != session.seq();
   try {
-    const std::string bytes = encoded(frame_message(session.apply(frame)), encoding_);
+    const std::string bytes = encoded(frame_message(session.apply(std::move(frame))), encoding_);
     send(std::make_shared<const std::string>(bytes), encoding_ == Encoding::json);
   } catch (...) {
     if (session.broken()) {
@@ -151,7 +151,7 @@ void Connection::apply_frame(const WireRequest& request) {
   if (!is_new) return;
   note_frame(session, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (held_->watchers.empty()) return session.draw(no_id);
-  const auto message = std::make_shared<const std::string>(watch_step(session, frame.frame).dump());
+  const auto message = std::make_shared<const std::string>(watch_step(session, session.last_frame()).dump());
   std::erase_if(held_->watchers, [&](const auto& watcher) {
     const std::shared_ptr<SessionListener> there = watcher.lock();
     if (there) there->watched(message);

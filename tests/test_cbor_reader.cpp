@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gridcull/core/random.h"
-#include "gridcull/sim/cbor_check.h"
+#include "gridcull/sim/cbor_reader.h"
 #include "gridcull/sim/json_tree.h"
 
 using namespace gridcull;
@@ -19,7 +19,23 @@ std::string cbor_of(const char* json) {
   return bytes;
 }
 
-std::string fault_of(const std::string& bytes) { return fault_of_cbor(bytes, 32); }
+struct Nothing final : CborSink {
+  void null() override {}
+  void boolean(bool) override {}
+  void integer(double) override {}
+  void number(double) override {}
+  void text(std::string_view) override {}
+  void bytes(std::string_view) override {}
+  void key(std::string_view) override {}
+  void start_array() override {}
+  void start_map() override {}
+  void end() override {}
+};
+
+std::string fault_of(const std::string& bytes) {
+  Nothing sink;
+  return read_cbor(bytes, 32, sink);
+}
 
 }  // namespace
 
@@ -54,6 +70,34 @@ TEST_CASE("CBOR that lies or has no use here is refused, however long it claims 
   std::string deep(32, '\x81');
   CHECK(fault_of(deep + '\0') == "");
   CHECK(fault_of('\x81' + deep + '\0') != "");
+}
+
+TEST_CASE("a value in CBOR is the value in JSON") {
+  const char* json =
+      R"({"id": 7, "big": 4294967295, "minus": -12, "x": 0.1, "half": 1.5, "yes": true, "list": [1, [2]]})";
+  const std::string bytes = cbor_of(json);
+  const JsonTree a(json, "a", ErrorCode::bad_message), b(bytes, "b", ErrorCode::bad_message, Encoding::cbor);
+  for (const JsonTree* tree : {&a, &b}) {
+    const JsonRef root = tree->root();
+    CHECK(root.at("id").id() == 7);
+    CHECK(root.at("big").count() == 4294967295u);
+    CHECK(root.at("minus").number() == -12);
+    CHECK(root.at("x").number() == 0.1);
+    CHECK(root.at("half").number() == 1.5);
+    CHECK(root.at("yes").boolean());
+    CHECK(root.at("list").items()[1].items()[0].number() == 2);
+  }
+  using namespace std::string_literals;
+  const auto number = [](const std::string& cbor) {
+    return JsonTree(cbor, "n", ErrorCode::bad_message, Encoding::cbor).root().number();
+  };
+  CHECK(number("\xf9\x3e\x00"s) == 1.5);
+  CHECK(number("\xf9\x00\x01"s) == 0x1p-24);
+  CHECK(number("\xf9\xc4\x00"s) == -4.0);
+  CHECK(number("\xfa\x3f\xc0\x00\x00"s) == 1.5);
+  CHECK(number("\x38\x63"s) == -100);
+  CHECK_THROWS_AS(number("\xf9\x7c\x00"s), Error);  // infinity
+  CHECK_THROWS_AS(number("\xf9\x7e\x00"s), Error);  // not a number
 }
 
 TEST_CASE("UTF-8: nothing overlong, no surrogates, nothing beyond U+10FFFF") {

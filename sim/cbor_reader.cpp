@@ -1,9 +1,8 @@
-// Why a check of its own: the JSON library's reader takes a chunked string inside a chunked string inside ... by
-// recursion, so that a megabyte of 0x7F would overflow the stack. Chunked strings and tags have no use here and are
-// refused.
-#include "gridcull/sim/cbor_check.h"
+#include "gridcull/sim/cbor_reader.h"
 
-#include <cstdint>
+#include <bit>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace gridcull {
@@ -18,9 +17,20 @@ struct Open {
   bool key_next;  ///< of a map
 };
 
-class Checker {
+/// Half precision (RFC 8949, appendix D).
+double half_value(std::uint64_t bits) {
+  const auto exponent = static_cast<int>(bits >> 10 & 31);
+  const auto mantissa = static_cast<double>(bits & 1023);
+  double value = exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(mantissa + 1024.0, exponent - 25);
+  if (exponent == 31) {
+    value = mantissa == 0.0 ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+  }
+  return (bits >> 15 & 1) != 0 ? -value : value;
+}
+
+class Reader {
  public:
-  Checker(std::string_view bytes, std::size_t deepest) : bytes_(bytes), deepest_(deepest) {}
+  Reader(std::string_view bytes, std::size_t deepest, CborSink& sink) : bytes_(bytes), deepest_(deepest), sink_(sink) {}
 
   std::string run() {
     do {
@@ -45,13 +55,14 @@ class Checker {
       return "expected a length or value, found additional information " + std::to_string(info);
     count_one();
     switch (major) {
+      case 0:
+      case 1: return whole(major, info, value);
       case 2:
-      case 3: return string(info, value, major == 3);
+      case 3: return string(info, value, major == 3, is_key);
       case 4:
       case 5: return container(info, value, major == 5);
       case 6: return "expected no tags";
-      case 7: return info <= 19 || info > 27 ? "expected false, true, null or a number" : "";
-      default: return info == 31 ? "expected a whole number" : "";
+      default: return simple(info, value);
     }
   }
 
@@ -67,13 +78,33 @@ class Checker {
     return true;
   }
 
-  std::string string(int info, std::uint64_t size, bool text) {
+  std::string whole(int major, int info, std::uint64_t value) {
+    if (info == 31) return "expected a whole number";
+    sink_.integer(major == 0 ? static_cast<double>(value) : -1.0 - static_cast<double>(value));
+    return "";
+  }
+
+  std::string simple(int info, std::uint64_t value) {
+    switch (info) {
+      case 20:
+      case 21: sink_.boolean(info == 21); return "";
+      case 22: sink_.null(); return "";
+      case 25: sink_.number(half_value(value)); return "";
+      case 26: sink_.number(static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(value)))); return "";
+      case 27: sink_.number(std::bit_cast<double>(value)); return "";
+      default: return "expected false, true, null or a number";
+    }
+  }
+
+  std::string string(int info, std::uint64_t size, bool text, bool is_key) {
     if (info == 31) return "expected a string of known length";
     if (bytes_.size() - at_ < size) {
       return "expected " + std::to_string(size) + " bytes, found " + std::to_string(bytes_.size() - at_);
     }
-    if (text && !is_utf8(bytes_.substr(at_, size))) return "expected UTF-8";
+    const std::string_view value = bytes_.substr(at_, size);
+    if (text && !is_utf8(value)) return "expected UTF-8";
     at_ += size;
+    is_key ? sink_.key(value) : text ? sink_.text(value) : sink_.bytes(value);
     return "";
   }
 
@@ -82,6 +113,7 @@ class Checker {
     // An item takes a byte at least: more than there are can be refused at once.
     if (info != 31 && count > bytes_.size() - at_) return "expected no more items than there are bytes";
     open_.push_back({info == 31 ? until_break : count * (is_map ? 2 : 1), is_map, true});
+    is_map ? sink_.start_map() : sink_.start_array();
     return "";
   }
 
@@ -89,7 +121,7 @@ class Checker {
     if (open_.empty() || open_.back().left != until_break) return "expected an item, found a break";
     if (open_.back().is_map && !open_.back().key_next) return "expected a value, found a break";
     ++at_;
-    open_.pop_back();
+    close();
     return "";
   }
 
@@ -99,19 +131,26 @@ class Checker {
     in.key_next = !in.key_next;
     if (in.left != until_break) --in.left;
   }
+  void close() {
+    open_.pop_back();
+    sink_.end();
+  }
   void close_full() {
-    while (!open_.empty() && open_.back().left == 0) open_.pop_back();
+    while (!open_.empty() && open_.back().left == 0) close();
   }
 
   std::string_view bytes_;
   std::size_t deepest_;
+  CborSink& sink_;
   std::size_t at_ = 0;
   std::vector<Open> open_{};
 };
 
 }  // namespace
 
-std::string fault_of_cbor(std::string_view bytes, std::size_t deepest) { return Checker(bytes, deepest).run(); }
+std::string read_cbor(std::string_view bytes, std::size_t deepest, CborSink& sink) {
+  return Reader(bytes, deepest, sink).run();
+}
 
 bool is_utf8(std::string_view text) {
   std::size_t i = 0;
