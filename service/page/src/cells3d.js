@@ -1,5 +1,7 @@
-// Cells as instanced boxes with edges, TBVs as instanced balls.
+// Cells as instanced boxes that show the lattice, TBVs as instanced balls.
 import { Color, InstancedMesh, Matrix4, MeshBasicMaterial, MeshLambertMaterial, Quaternion, Vector3 } from 'three';
+import { latticeUniforms, withEdges } from './edges.js';
+import { merged } from './merge.js';
 import { unitBall, unitBox } from './solids.js';
 import { worldPane } from './objects3d.js';
 
@@ -46,25 +48,27 @@ const ball = ({ centre, radius }) => {
 };
 
 const styles = {
-  'seen-area': { cells: 'visited', colour: 'visited', opacity: 0.1 },
-  hidden: { cells: 'hidden', colour: 'unseen-line', opacity: 0.1 },
+  touched: { cells: 'touched', colour: 'touched', opacity: 0.3 },
+  tbv: { cells: 'tbv', colour: 'tbv-cell', opacity: 0.3 },
+  'seen-area': { cells: 'visited', colour: 'region-line', opacity: 0.25 },
+  hidden: { cells: 'hidden', colour: 'hidden', opacity: 0.5 },
   opaque: { cells: 'opaque', colour: 'opaque', opacity: 1 },
-  touched: { cells: 'touched', colour: 'touched', opacity: 0.22 },
-  tbv: { cells: 'tbv', colour: 'tbv-cell', opacity: 0.16 },
   volume: { cells: 'line_of_sight', colour: 'sight', opacity: 0.7 },
 };
 
 export class Cells3d {
   constructor(scene) {
+    this.lattice = latticeUniforms();
     this.layers = Object.entries(styles).map(([key, style], i) => {
-      const clear = style.opacity < 1;
-      const Material = clear ? MeshBasicMaterial : MeshLambertMaterial;
-      const material = new Material({ transparent: clear, opacity: style.opacity, depthWrite: !clear });
-      return { key, ...style, material, copies: new Instances(scene, unitBox(), material, 10 + i) };
+      const clear = style.opacity < 1, material = withEdges(new MeshLambertMaterial({ transparent: clear, opacity: style.opacity }), { strength: 0.2, lattice: this.lattice });
+      // Of clear cells only the nearest faces are painted: their depths go first. Thousands of panes one behind the other
+      // would be as good as black.
+      const depths = clear ? [new Instances(scene, unitBox(), new MeshBasicMaterial({ colorWrite: false, transparent: true }), 10 + 2 * i)] : [];
+      return { key, ...style, material, copies: [...depths, new Instances(scene, unitBox(), material, 11 + 2 * i)] };
     });
     const balls = () => new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.25 });
-    this.volumes = new Instances(scene, unitBall(), balls(), 20);
-    this.revealed = new Instances(scene, unitBall(), balls(), 21);
+    this.volumes = new Instances(scene, unitBall(), balls(), 30);
+    this.revealed = new Instances(scene, unitBall(), balls(), 31);
   }
 
   recolour(colours) {
@@ -73,8 +77,13 @@ export class Cells3d {
     this.revealed.material.color = new Color(colours.revealed);
   }
 
-  update({ drawn, on }) {
-    for (const layer of this.layers) layer.copies.fill((on[layer.key] && drawn?.cells?.[layer.cells]) || [], box);
+  update({ drawn, on, lattice }) {
+    this.lattice.origin.value.set(...lattice.bounds.min);
+    this.lattice.cell.value = lattice.cell;
+    for (const layer of this.layers) {
+      const cells = merged((on[layer.key] && drawn?.cells?.[layer.cells]) || []);
+      for (const copies of layer.copies) copies.fill(cells, box);
+    }
     const volumes = (on.tbv && drawn?.volumes) || [];
     this.volumes.fill(volumes.filter((v) => !v.revealed), ball);
     this.revealed.fill(volumes.filter((v) => v.revealed), ball);

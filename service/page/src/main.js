@@ -66,10 +66,10 @@ function paint() {
   if (shown.changed) {
     fates.update(world, eye, seen);
     picked.update(situation());
-    Object.assign(shown, { world, view: eye, drawn: step?.drawn?.viewer === viewer ? step.drawn : null, picked: picked.about, lattice: start });
+    Object.assign(shown, { world, view: eye, drawn: step?.drawn && step.drawn.viewer === viewer ? step.drawn : null, picked: picked.about, lattice: start });
     if (eye && !shown.framed) frameFirst(eye);
     showReadings({ size: $('pvs-size'), words: $('pvs-words'), list: $('readings') }, { step, viewer, view: eye, pvs: seen?.length, fates, world });
-    showWhy($('why'), { picked: picked.about, world, viewer, fates, onPick: pick });
+    showWhy($('why'), { picked: picked.about, world, viewer, seq: player.seq, fates, onPick: pick });
     layerList.show(layerCounts());
     showTime();
   }
@@ -80,10 +80,23 @@ function paint() {
   timeline.draw({ history, viewer, seq: player.seq, total: driver?.total });
 }
 
+/// Cells come in boxes of several.
+function cellsIn(boxes) {
+  if (!boxes) return undefined;
+  const n = start.dimension;
+  let sum = 0;
+  for (const box of boxes) {
+    let product = 1;
+    for (let axis = 0; axis < n; axis++) product *= Math.round((box[axis + n] - box[axis]) / start.cell);
+    sum += product;
+  }
+  return sum;
+}
+
 function layerCounts() {
   const cells = shown.drawn?.cells ?? {};
   return {
-    hidden: cells.hidden?.length, opaque: cells.opaque?.length, touched: cells.touched?.length, tbv: shown.drawn?.volumes?.length,
+    hidden: cellsIn(cells.hidden), opaque: cellsIn(cells.opaque), touched: cellsIn(cells.touched), tbv: shown.drawn?.volumes?.length,
     unseen: fates.counts[Fate.unseen], beyond: fates.counts[Fate.beyond],
   };
 }
@@ -119,9 +132,8 @@ function showTime() {
   slider.setAttribute('aria-valuemax', history.last);
   slider.setAttribute('aria-valuenow', player.seq);
   slider.setAttribute('aria-valuetext', $('clock').textContent);
-  const pane = $('eye-title');
-  pane.hidden = start.dimension === 2 || !shown.view;
-  if (!pane.hidden) pane.textContent = `What viewer ${viewers.viewer} sees: its PVS, nothing else`;
+  $('eye-frame').hidden = start.dimension === 2 || !shown.view;
+  $('eye-title').textContent = `What viewer ${viewers.viewer} sees: its PVS, nothing else`;
 }
 
 function showScale() {
@@ -129,7 +141,7 @@ function showScale() {
   box.hidden = start.dimension === 3;
   if (start.dimension === 3) {
     const p = view.pane;
-    if (p) Object.assign($('eye-title').style, { left: `${p.x}px`, top: `${p.y}px`, borderRadius: '0 0 4px 0' });
+    if (p) Object.assign($('eye-frame').style, { left: `${p.x}px`, top: `${p.y}px`, width: `${p.width}px`, height: `${p.height}px` });
     return;
   }
   let metres = 1e-3;
@@ -281,7 +293,7 @@ async function openFiles(files) {
 }
 
 function chooseViewer(viewer) {
-  picked.last = 0;
+  picked.rest = 0;
   // The drawing is made for one viewer; that of another comes with the next frame.
   if (watcher && watcher.viewer !== viewer) watcher.watch(viewer).catch(complain);
   if (view?.follows) shown.framed = false;

@@ -1,6 +1,7 @@
 // All objects of a 3D world as a few draw calls: instanced balls and boxes, one batch for the other shapes. Objects in
-// the PVS and the rest are apart, since the viewer's pane draws the former only.
+// the PVS, the rest, and what the viewer rides on are apart, since the viewer's pane draws the first only.
 import { BatchedMesh, Color, DynamicDrawUsage, Group, InstancedMesh, Matrix4, MeshLambertMaterial, Quaternion, Vector3 } from 'three';
+import { withEdges } from './edges.js';
 import { geometryOf, kindOf, unitBall, unitBox } from './solids.js';
 import { Fate } from './fate.js';
 import { stride } from './world.js';
@@ -105,13 +106,12 @@ class Batch {
 }
 
 class Set3d {
-  constructor(scene, material, layers) {
+  constructor(scene, look, layers, order = 0) {
     this.group = new Group();
-    this.material = material;
-    this.ball = new Copies(unitBall(), material, this.group);
-    this.box = new Copies(unitBox(), material, this.group);
-    this.batch = new Batch(material, this.group);
-    this.layers = layers;
+    this.ball = new Copies(unitBall(), new MeshLambertMaterial(look), this.group);
+    this.box = new Copies(unitBox(), withEdges(new MeshLambertMaterial(look), { alpha: look.transparent ? 0.75 : 0 }), this.group);
+    this.batch = new Batch(new MeshLambertMaterial(look), this.group);
+    Object.assign(this, { layers, order });
     scene.add(this.group);
   }
 
@@ -120,7 +120,10 @@ class Set3d {
   end() {
     this.ball.end();
     this.box.end();
-    for (const mesh of this.group.children) mesh.layers.mask = this.layers;
+    for (const mesh of this.group.children) {
+      mesh.layers.mask = this.layers;
+      mesh.renderOrder = this.order;
+    }
   }
 }
 
@@ -128,8 +131,9 @@ export const worldPane = 1, eyePane = 2; // masks of camera layers
 
 export class Objects3d {
   constructor(scene) {
-    this.seen = new Set3d(scene, new MeshLambertMaterial(), worldPane | eyePane);
-    this.rest = new Set3d(scene, new MeshLambertMaterial({ transparent: true, opacity: 0.34, depthWrite: false }), worldPane);
+    this.seen = new Set3d(scene, { transparent: true }, worldPane | eyePane);
+    this.own = new Set3d(scene, {}, worldPane);
+    this.rest = new Set3d(scene, { transparent: true, opacity: 0.3, depthWrite: false }, worldPane, 1);
     this.colour = Object.fromEntries(['seen', 'own', 'pick', 'blocker', 'unseen', 'beyond'].map((name) => [name, new Color()]));
   }
 
@@ -143,10 +147,11 @@ export class Objects3d {
     if (this.world !== world || this.changes !== world.changes) {
       this.seen.batch.build(world);
       this.rest.batch.build(world);
+      this.own.batch.build(world);
       this.world = world;
       this.changes = world.changes;
     }
-    for (const set of [this.seen, this.rest]) {
+    for (const set of [this.seen, this.rest, this.own]) {
       set.ball.begin(world.size);
       set.box.begin(world.size);
       set.batch.begin();
@@ -155,18 +160,24 @@ export class Objects3d {
     for (const [id, slot] of world.slots) {
       const record = world.records[slot], fate = fates.of[slot], marked = id === picked?.id || by.has(id);
       if (!marked && ((fate === Fate.unseen && !on.unseen) || (fate === Fate.beyond && !on.beyond))) continue;
-      const set = fate >= Fate.seen ? this.seen : this.rest;
+      const set = fate === Fate.own ? this.own : fate === Fate.seen ? this.seen : this.rest;
       const colour = id === picked?.id ? this.colour.pick : by.has(id) ? this.colour.blocker :
         [this.colour.beyond, this.colour.unseen, this.colour.seen, this.colour.own][fate];
       set.of(kindOf(record.shape)).add(id, placed(record, world.pose, slot), colour);
     }
     this.seen.end();
     this.rest.end();
+    this.own.end();
+  }
+
+  /// Opaque cells lie within objects, so that these have to let them through.
+  showThrough(opacity) {
+    for (const copies of [this.seen.ball, this.seen.box, this.seen.batch]) copies.material.opacity = opacity;
   }
 
   /// The id that a ray meets first; what is seen comes before what is drawn as if of glass.
   hit(raycaster) {
-    for (const set of [this.seen, this.rest]) {
+    for (const set of [this.own, this.seen, this.rest]) {
       for (const { object, instanceId, batchId } of raycaster.intersectObjects(set.group.children, false)) {
         const id = object.userData.ids[instanceId ?? batchId];
         if (id !== undefined) return id;

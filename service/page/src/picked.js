@@ -1,11 +1,12 @@
 // The object that somebody asks about, and the server's answer. It explains its newest frame; of older ones the page
-// knows whether the object was reported, but not why.
-const pause = 200; // ms between two questions while frames run on
+// knows whether the object was reported, but not why. The exact reference may take a second in 3D, so that one question
+// is asked at a time, and seldom while frames run on.
+const leastPause = 200; // ms from an answer to the next question of the same object
 
 export class Picked {
   /// `ask(viewer, object)` gives the server's answer; `changed()`: draw again.
   constructor({ ask, changed }) {
-    Object.assign(this, { ask, changed, about: null });
+    Object.assign(this, { ask, changed, about: null, asking: false, rest: 0 });
   }
 
   clear() {
@@ -13,32 +14,36 @@ export class Picked {
     this.changed();
   }
 
-  /// `cellBox`: the box in metres of a cell given by its indices.
   choose(id, situation) {
     this.about = id === undefined ? null : { id };
-    this.last = 0;
+    this.rest = 0;
     this.update(situation);
     this.changed();
   }
 
-  /// `situation`: {viewer, seq, newest: is the frame shown the server's last, cellBox}
+  /// `situation`: {viewer, seq, newest: is the frame shown the server's last, cellBox: the box in metres of a cell}
   update(situation) {
+    this.situation = situation;
     const { about } = this, { viewer, seq, newest } = situation;
-    if (!about || viewer === undefined || (about.seq === seq && about.viewer === viewer && about.newest === newest)) return;
-    if (about.viewer !== viewer || !newest) this.about = { id: about.id };
-    Object.assign(this.about, { seq, viewer, newest });
-    if (!newest) {
-      this.about.note = 'Why is worked out for the newest frame only: press End, then step.';
-      return;
-    }
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.question(situation), Math.max(0, (this.last ?? 0) + pause - performance.now()));
+    if (!about || viewer === undefined) return;
+    if (about.viewer !== viewer || (about.asOf !== undefined && about.asOf > seq)) this.about = { id: about.id, viewer };
+    if (newest) this.plan();
+    else if (this.about.asOf !== seq) this.about = { id: about.id, viewer, note: 'Why is worked out for the newest frame only: press End.' };
   }
 
-  async question({ viewer, cellBox }) {
-    const { id } = this.about ?? {};
-    if (id === undefined) return;
-    this.last = performance.now();
+  plan() {
+    const { about, situation } = this;
+    if (!about || !situation.newest || this.asking || about.asOf === situation.seq) return;
+    if (about.asOf === undefined) about.note = 'Working out why…';
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.question(), Math.max(0, this.rest - performance.now()));
+  }
+
+  async question() {
+    const { about, situation } = this;
+    if (!about || this.asking || !situation.newest) return;
+    this.asking = true;
+    const { id } = about, { viewer, seq, cellBox } = situation, began = performance.now();
     let answer;
     try {
       const { verdict, by, cells, sees } = await this.ask(viewer, id);
@@ -46,9 +51,15 @@ export class Picked {
     } catch (fault) {
       answer = { note: `The server does not say why: ${fault.message}` };
     }
-    if (this.about?.id !== id || this.about.viewer !== viewer || !this.about.newest) return;
-    const { seq, newest } = this.about;
-    this.about = { id, seq, viewer, newest, ...answer };
+    const now = performance.now();
+    this.asking = false;
+    this.rest = now + Math.max(leastPause, 3 * (now - began));
+    if (this.about?.id === id && this.situation.viewer === viewer) {
+      if (this.situation.seq >= seq) this.about = { id, viewer, asOf: seq, ...answer };
+    } else {
+      this.rest = 0;
+    }
+    this.plan();
     this.changed();
   }
 }

@@ -36,6 +36,7 @@ export async function traceFromFiles(files) {
     } else if (text.slice(0, 4000).includes('gridcull.scene/')) {
       scene = text;
       name = (file.webkitRelativePath?.split('/').at(-2) || file.name).replace(/\.json(\.gz)?$/, '');
+      if (name === 'scene') name = 'trace';
     } else {
       throw new Error(`${file.name} is neither a scene (gridcull.scene/1) nor frames (gridcull.frames/1).`);
     }

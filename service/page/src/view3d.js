@@ -1,7 +1,7 @@
 // The world in 3D, as in Figure 6 of Batagelo and Wu 2002: cells, objects, TBVs and the view volume from outside, and
 // what the viewer sees in a second pane, for which only its PVS is drawn.
 import {
-  AmbientLight, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, GridHelper, Box3Helper, LineBasicMaterial, LineSegments,
+  AmbientLight, Box3, Box3Helper, BufferAttribute, BufferGeometry, Color, DirectionalLight, LineBasicMaterial, LineSegments,
   PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -10,6 +10,7 @@ import { colours } from './colours.js';
 import { rotate } from './fate.js';
 import { eyePane, Objects3d, worldPane } from './objects3d.js';
 import { frustumLines } from './frustum_lines.js';
+import { groundLines } from './ground.js';
 import { stride } from './world.js';
 
 const widest = 0.42, tallest = 0.56; // of the stage, for the viewer's pane
@@ -52,6 +53,7 @@ export class View3d {
     }
     this.objects = new Objects3d(this.scene);
     this.cells = new Cells3d(this.scene);
+    this.floor = new Lines(this.scene, worldPane | eyePane);
     this.volume = new Lines(this.scene, worldPane);
     this.sight = new Lines(this.scene, worldPane);
     this.marker = new Lines(this.scene, worldPane);
@@ -153,12 +155,14 @@ export class View3d {
       if (this.follows && view) this.stay(view.position);
     }
     this.pane = view ? this.paneFor(view) : null;
-    const shift = this.pane ? 0.36 * this.pane.width : 0; // the middle of what the pane leaves free
+    const shift = this.pane ? 0.4 * this.pane.width : 0; // the middle of what the pane leaves free
     this.camera.aspect = this.width / this.height;
     this.camera.setViewOffset(this.width, this.height, shift, 0, this.width, this.height);
+    this.objects.showThrough(shown.on.opaque && shown.drawn?.cells?.opaque?.length ? 0.55 : 1);
     this.paint(this.camera, { x: 0, y: 0, width: this.width, height: this.height }, colours.map);
     if (!view) return;
     this.aim(view, lattice);
+    this.objects.showThrough(1);
     this.paint(this.eye, this.pane, colours.dark ? '#10151b' : '#dfe9f3');
   }
 
@@ -196,16 +200,13 @@ export class View3d {
   ground({ bounds }) {
     this.bounds = bounds;
     for (const old of this.fixed ?? []) this.scene.remove(old);
-    const box = new Box3(new Vector3(...bounds.min), new Vector3(...bounds.max)), size = box.getSize(new Vector3());
-    const side = Math.max(size.x, size.y), grid = new GridHelper(side, 20, colours.line, colours.line);
-    grid.rotation.x = Math.PI / 2;
-    grid.scale.set(size.x / side, 1, size.y / side);
-    box.getCenter(grid.position).setZ(Math.max(bounds.min[2], Math.min(0, bounds.max[2])));
-    grid.layers.mask = worldPane | eyePane;
+    const box = new Box3(new Vector3(...bounds.min), new Vector3(...bounds.max));
     const frame = new Box3Helper(box, new Color(colours['beyond-line']));
+    Object.assign(frame.material, { transparent: true, opacity: 0.6 });
     frame.layers.mask = worldPane;
-    this.fixed = [grid, frame];
-    this.scene.add(grid, frame);
+    this.floor.set(groundLines(bounds), colours.line);
+    this.fixed = [frame];
+    this.scene.add(frame);
   }
 
   lines({ view, on, picked, world, lattice }) {

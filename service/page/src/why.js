@@ -12,7 +12,7 @@ const element = (name, text, className) => {
 const most = 12; // occluders shown at first
 
 /// `state`: {picked: {id, by, sees, verdict, ...}, world, viewer, fates}
-export function showWhy(box, { picked, world, viewer, fates, onPick }) {
+export function showWhy(box, { picked, world, viewer, seq, fates, onPick }) {
   if (!picked) {
     box.replaceChildren(element('p', 'Click an object, or press n, to learn why it is seen or hidden.', 'faint'));
     return;
@@ -28,6 +28,7 @@ export function showWhy(box, { picked, world, viewer, fates, onPick }) {
   if (picked.by?.length && picked.verdict === 'hidden') parts.push(coverers(picked.by, world, onPick));
   if (picked.sees?.length) parts.push(element('p', `A free line of sight ends at ${picked.sees.map(coordinates).join(', ')} on it.`));
   if (picked.cells?.length) parts.push(element('p', `It touches ${picked.cells.length === 1 ? 'one cell' : `${picked.cells.length} cells`}.`, 'faint'));
+  if (picked.asOf !== undefined && picked.asOf !== seq) parts.push(element('p', `So it was in frame ${picked.asOf}.`, 'faint'));
   if (picked.note) parts.push(element('p', picked.note, 'faint'));
   parts.push(element('p', aboutObject(record), 'faint'));
   box.replaceChildren(...parts);
