@@ -131,8 +131,11 @@ async function check2d() {
   await nextHidden(driver);
   assert.match(await explain(watching, house.id), /is (seen by|hidden from|outside the view volume of) viewer|is hidden, but/);
 
-  await stepTo(driver, 40);
+  await driver.keyboard.press('Escape');
   await driver.keyboard.press('c');
+  await stepTo(driver, 40);
+  await nextHidden(driver);
+  await driver.evaluate(() => document.activeElement.blur());
   await driver.waitForTimeout(500);
   await driver.screenshot({ path: `${pictures}/page-2d.png` });
   await driver.emulateMedia({ colorScheme: 'dark' });

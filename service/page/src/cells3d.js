@@ -2,7 +2,7 @@
 import { Color, InstancedMesh, Matrix4, MeshBasicMaterial, MeshLambertMaterial, Quaternion, Vector3 } from 'three';
 import { latticeUniforms, withEdges } from './edges.js';
 import { merged } from './merge.js';
-import { unitBall, unitBox } from './solids.js';
+import { coarseBall, unitBox } from './solids.js';
 import { worldPane } from './objects3d.js';
 
 const none = new Quaternion(), position = new Vector3(), scale = new Vector3(), matrix = new Matrix4();
@@ -67,8 +67,8 @@ export class Cells3d {
       return { key, ...style, material, copies: [...depths, new Instances(scene, unitBox(), material, 11 + 2 * i)] };
     });
     const balls = () => new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.25 });
-    this.volumes = new Instances(scene, unitBall(), balls(), 30);
-    this.revealed = new Instances(scene, unitBall(), balls(), 31);
+    this.volumes = new Instances(scene, coarseBall(), balls(), 30);
+    this.revealed = new Instances(scene, coarseBall(), balls(), 31);
   }
 
   recolour(colours) {

@@ -4,10 +4,10 @@ export const layers = [
   { key: 'hidden', text: 'hidden cells (H)', fill: 'hidden', flat: true, solid: true },
   { key: 'opaque', text: 'opaque cells (O)', fill: 'opaque', flat: true, solid: true },
   { key: 'touched', text: "objects' cells (I)", fill: 'touched', fade: 0.38, flat: false, solid: false },
-  { key: 'tbv', text: 'TBVs of hidden movers (T)', line: 'tbv', dash: '4 2', disc: true, flat: true, solid: true },
-  { key: 'volume', text: 'view volume, line of sight', line: 'volume', bar: true, flat: true, solid: true },
+  { key: 'tbv', text: 'TBVs of hidden movers', line: 'tbv', dash: '4 2', disc: true, flat: true, solid: true },
+  { key: 'volume', text: 'view volume, sight line', line: 'volume', bar: true, flat: true, solid: true },
   { key: 'unseen', text: 'hidden objects', fill: 'unseen', line: 'unseen-line', dash: '3 2', flat: true, solid: true },
-  { key: 'beyond', text: 'objects outside the view', fill: 'beyond', line: 'beyond-line', flat: true, solid: true },
+  { key: 'beyond', text: 'objects out of view', fill: 'beyond', line: 'beyond-line', flat: true, solid: true },
 ];
 
 const samples = {

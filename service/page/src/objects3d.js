@@ -2,11 +2,13 @@
 // the PVS, the rest, and what the viewer rides on are apart, since the viewer's pane draws the first only.
 import { BatchedMesh, Color, DynamicDrawUsage, Group, InstancedMesh, Matrix4, MeshLambertMaterial, Quaternion, Vector3 } from 'three';
 import { withEdges } from './edges.js';
-import { geometryOf, kindOf, unitBall, unitBox } from './solids.js';
+import { coarseBall, geometryOf, kindOf, unitBall, unitBox } from './solids.js';
 import { Fate } from './fate.js';
 import { stride } from './world.js';
 
 const position = new Vector3(), turn = new Quaternion(), scale = new Vector3(), matrix = new Matrix4();
+
+const many = 1500;
 
 function placed(record, pose, slot) {
   const at = slot * stride, { shape } = record;
@@ -20,8 +22,9 @@ function placed(record, pose, slot) {
 
 /// Copies of one geometry, as many as a frame needs.
 class Copies {
-  constructor(geometry, material, group) {
-    Object.assign(this, { geometry, material, group, ids: [] });
+  /// `coarse`: the geometry that stands in where there are thousands.
+  constructor(geometry, material, group, coarse = geometry) {
+    Object.assign(this, { geometry, material, group, coarse, ids: [] });
     this.grow(64);
   }
 
@@ -51,6 +54,7 @@ class Copies {
 
   end() {
     this.mesh.count = this.ids.length;
+    this.mesh.geometry = this.ids.length > many ? this.coarse : this.geometry;
     this.mesh.visible = this.ids.length > 0;
     this.mesh.instanceMatrix.needsUpdate = this.mesh.instanceColor.needsUpdate = true;
     this.mesh.boundingSphere = null; // clicks are told by it
@@ -108,7 +112,7 @@ class Batch {
 class Set3d {
   constructor(scene, look, layers, order = 0) {
     this.group = new Group();
-    this.ball = new Copies(unitBall(), new MeshLambertMaterial(look), this.group);
+    this.ball = new Copies(unitBall(), new MeshLambertMaterial(look), this.group, coarseBall());
     this.box = new Copies(unitBox(), withEdges(new MeshLambertMaterial(look), { alpha: look.transparent ? 0.75 : 0 }), this.group);
     this.batch = new Batch(new MeshLambertMaterial(look), this.group);
     Object.assign(this, { layers, order });

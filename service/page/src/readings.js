@@ -23,7 +23,7 @@ export function showReadings({ size, words, list }, { step, viewer, view, pvs, f
     ['viewer at', view && coordinates(view.position)],
     ['range', view?.range === undefined ? undefined : `${+view.range.toFixed(2)} m`],
     ['objects', world.size.toLocaleString('en')],
-    ['frame time, all viewers', stats.total_us === undefined ? undefined : millis(stats.total_us)],
+    ['frame time', stats.total_us === undefined ? undefined : millis(stats.total_us)],
     ['positions read', stats.positions_read?.toLocaleString('en')],
     ['TBVs active, revealed', stats.tbv_active === undefined ? undefined : `${stats.tbv_active}, ${stats.tbv_revealed}`],
   ]);

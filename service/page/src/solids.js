@@ -2,7 +2,9 @@
 import { BoxGeometry, BufferAttribute, BufferGeometry, ExtrudeGeometry, IcosahedronGeometry, Shape, Vector2, Vector3 } from 'three';
 import { ConvexGeometry } from 'three/addons/geometries/ConvexGeometry.js';
 
+/// Round enough for a few, and for thousands.
 export const unitBall = () => new IcosahedronGeometry(1, 3);
+export const coarseBall = () => new IcosahedronGeometry(1, 1);
 export const unitBox = () => new BoxGeometry(1, 1, 1);
 
 /// 'ball', 'box', or a key that shapes alike share.

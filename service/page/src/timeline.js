@@ -10,7 +10,7 @@ function ceiling(value) {
   return 10 * power;
 }
 
-const millis = (us) => (us >= 1e5 ? `${(us / 1000).toFixed(0)} ms` : us >= 1000 ? `${(us / 1000).toFixed(1)} ms` : `${Math.round(us)} µs`);
+const millis = (us) => (us >= 1e4 ? `${(us / 1000).toFixed(0)} ms` : us >= 1000 ? `${(us / 1000).toFixed(1)} ms` : `${Math.round(us)} µs`);
 
 export class Timeline {
   constructor(canvas, { onSeek }) {

@@ -281,7 +281,7 @@ export class View2d {
   }
 
   tbvs(drawn) {
-    const g = this.context;
+    const g = this.context, crowd = (drawn?.volumes?.length ?? 0) > mostDashed;
     for (const revealed of [false, true]) {
       g.beginPath();
       for (const volume of drawn?.volumes ?? []) {
@@ -292,8 +292,8 @@ export class View2d {
         g.arc(x, y, r, 0, 2 * Math.PI);
       }
       g.strokeStyle = revealed ? colours.revealed : colours.tbv;
-      g.lineWidth = revealed ? 1.8 : 1.4;
-      g.setLineDash(revealed ? [] : [5, 3]);
+      g.lineWidth = revealed ? 1.8 : crowd ? 0.6 : 1.4;
+      g.setLineDash(revealed || crowd ? [] : [5, 3]);
       g.stroke();
     }
     g.setLineDash([]);
