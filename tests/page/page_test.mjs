@@ -9,16 +9,22 @@ const { chromium } = createRequire(new URL('../../service/page/package.json', im
 const [, , program, executablePath, worlds, pictures] = process.argv;
 const faults = []; // what no tab may do
 
-const server = spawn(program, ['serve', '--port', '0', '--audit', '1'], { stdio: ['ignore', 'pipe', 'inherit'] });
-const address = await new Promise((resolve, reject) => {
-  server.stdout.on('data', (data) => resolve(/http:\S+/.exec(data)[0]));
-  server.on('exit', (status) => reject(new Error(`the server has ended with status ${status}`)));
-});
+/// The program with these arguments: {address, stop()}, once it has said where it listens.
+async function start(...args) {
+  const child = spawn(program, args, { stdio: ['ignore', 'pipe', 'inherit'] });
+  const address = await new Promise((resolve, reject) => {
+    child.stdout.on('data', (data) => resolve(/http:\S+/.exec(data)[0]));
+    child.on('exit', (status) => reject(new Error(`${args[0]} has ended with status ${status}`)));
+  });
+  return { address, stop: () => child.kill('SIGTERM') };
+}
+
+const server = await start('serve', '--port', '0', '--audit', '1');
 // A root shell, as in continuous integration, has no sandbox.
 const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] });
 const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: 'light' });
 
-async function openTab(name) {
+async function openTab(name, address = server.address) {
   const tab = await context.newPage(), host = new URL(address).host;
   const inner = (url) => /^(data|blob):/.test(url) || new URL(url).host === host;
   tab.on('request', (request) => inner(request.url()) || faults.push(`${name}: request to ${request.url()}`));
@@ -159,11 +165,20 @@ async function check3d() {
   await tab.locator('#clock').click();
   await tab.keyboard.press(' ');
   await until(tab, '#eye-title', /What viewer \d+ sees/);
-  await stepTo(tab, 12);
+  await stepTo(tab, 8);
   await nextHidden(tab);
   await tab.waitForTimeout(500);
   await tab.screenshot({ path: `${pictures}/page-3d.png` });
   await tab.close();
+}
+
+/// `gridcull view` serves a trace, which the page plays by itself.
+async function checkView() {
+  const [scene, frames] = files('town'), viewing = await start('view', scene, '--frames', frames);
+  const tab = await openTab('view', viewing.address);
+  await until(tab, '#clock', /^frame \d+ of 60/);
+  await tab.close();
+  viewing.stop();
 }
 
 async function checkRefusals() {
@@ -177,7 +192,7 @@ async function checkRefusals() {
 
 let status = 0;
 try {
-  const front = await (await fetch(`${address}/`)).text();
+  const front = await (await fetch(`${server.address}/`)).text();
   if (!front.includes('id="work"')) {
     console.log('skipped: the program was built without the page');
     status = 77;
@@ -185,6 +200,7 @@ try {
     await checkRefusals();
     await check2d();
     await check3d();
+    await checkView();
     assert.deepEqual(faults, []);
     console.log('the page: lists, watches, steps, chooses, explains; no fault in the console, no request elsewhere');
   }
@@ -194,6 +210,6 @@ try {
   status = 1;
 } finally {
   await browser.close();
-  server.kill('SIGTERM');
+  server.stop();
 }
 process.exitCode = status;

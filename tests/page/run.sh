@@ -18,5 +18,5 @@ browser=$(command -v chromium || command -v chromium-browser || command -v googl
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$program" make town --count 100 --viewers 6 --range 75 --frames 60 --seed 4 --out "$work/town" >/dev/null
-"$program" make city --blocks 4 --count 60 --viewers 4 --range 60 --frames 30 --seed 2 --out "$work/city" >/dev/null
+"$program" make city --blocks 3 --count 40 --viewers 3 --range 60 --frames 30 --seed 2 --out "$work/city" >/dev/null
 node tests/page/page_test.mjs "$program" "$browser" "$work" "${pictures:-$work}"
