@@ -12,6 +12,7 @@ skip() {
   exit 77
 }
 command -v node >/dev/null || skip "node is missing (Debian: nodejs)"
+node tests/page/history_test.mjs
 [ -e service/page/node_modules/playwright-core/package.json ] || skip "playwright-core is missing (npm ci in service/page)"
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || skip "chromium is missing"
 

@@ -28,17 +28,21 @@ export class History {
   get length() { return this.entries.length; }
   entry(seq) { return this.entries[seq - this.first]; }
 
-  /// False where a frame is missing before this one.
+  /// False where a frame is missing before this one. The newest frame may come again, drawn for another viewer, and the
+  /// one before the first, which the world holds already.
   push(step, text) {
-    if (step.seq <= this.last) return true;
-    if (step.seq !== this.last + 1) return false;
-    this.head.apply(step.frame);
+    if (step.seq < this.last) return true;
+    const again = step.seq === this.last;
+    if (!again && step.seq !== this.last + 1) return false;
+    if (!again) this.head.apply(step.frame);
+    const old = again ? this.entries.pop() : undefined;
+    if (again && !old) this.first = step.seq;
+    this.text += text.length - (old?.text.length ?? 0);
+    const keep = old ? old.world : again || this.entries.length % between === between - 1 ? this.head.clone() : null;
     this.entries.push({
-      seq: step.seq, time: step.time, text, micros: step.stats?.total_us, exact: step.exact,
+      seq: step.seq, time: step.time, text, world: keep, micros: step.stats?.total_us, exact: step.exact,
       drawnFor: step.drawn?.viewer, sizes: new Map(step.answers.map((a) => [a.viewer, a.visible.length])),
-      world: this.entries.length % between === between - 1 ? this.head.clone() : null,
     });
-    this.text += text.length;
     if (this.text > mostText || this.entries.length > mostFrames) this.forget();
     return true;
   }

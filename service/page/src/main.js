@@ -71,6 +71,8 @@ function paint() {
     showReadings({ size: $('pvs-size'), words: $('pvs-words'), list: $('readings') }, { step, viewer, view: eye, pvs: seen?.length, fates, world });
     showWhy($('why'), { picked: picked.about, world, viewer, seq: player.seq, fates, onPick: pick });
     layerList.show(layerCounts());
+    $('drawn-note').hidden = !step?.drawn || step.drawn.viewer === viewer;
+    $('drawn-note').textContent = `Cells and TBVs of viewer ${viewer} come with the next frame.`;
     showTime();
   }
   view.resize();

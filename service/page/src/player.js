@@ -28,8 +28,12 @@ export class Player {
     this.tick();
   }
 
-  /// A frame has come in.
+  /// A frame has come in, or the newest once more.
   arrived() {
+    if (this.shown?.seq === this.history.last) {
+      this.shown.step = null;
+      return this.show(this.history.last);
+    }
     this.asked = false;
     if (this.shown && this.shown.seq < this.history.first - 1) this.show(this.history.first);
     if (this.stepping) {
