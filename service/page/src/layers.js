@@ -1,4 +1,6 @@
 // What can be drawn and what is: the list beside the map is its legend too.
+import { Fate } from './fate.js';
+
 export const layers = [
   { key: 'seen-area', text: 'what it looks into', fill: 'visited', line: 'region-line', flat: true, solid: false },
   { key: 'hidden', text: 'hidden cells (H)', fill: 'hidden', flat: true, solid: true },
@@ -49,4 +51,25 @@ export class LayerList {
       if (layer.count.textContent !== text) layer.count.textContent = text;
     }
   }
+}
+
+/// Cells come in boxes of several.
+function cellsIn(boxes, { dimension, cell }) {
+  if (!boxes) return undefined;
+  let sum = 0;
+  for (const box of boxes) {
+    let product = 1;
+    for (let axis = 0; axis < dimension; axis++) product *= Math.round((box[axis + dimension] - box[axis]) / cell);
+    sum += product;
+  }
+  return sum;
+}
+
+/// How many of each there are, as far as that is known.
+export function layerCounts({ drawn, fates, lattice }) {
+  const cells = drawn?.cells ?? {};
+  return {
+    hidden: cellsIn(cells.hidden, lattice), opaque: cellsIn(cells.opaque, lattice), touched: cellsIn(cells.touched, lattice),
+    tbv: drawn?.volumes?.length, unseen: fates.counts[Fate.unseen], beyond: fates.counts[Fate.beyond],
+  };
 }

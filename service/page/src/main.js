@@ -1,10 +1,10 @@
 // The viewer page: a list of sessions, one of them drawn live, or a trace played through a session of its own.
 import { followColours } from './colours.js';
 import { listenToFiles } from './drop.js';
-import { Fates, Fate } from './fate.js';
+import { Fate, Fates } from './fate.js';
 import { History } from './history.js';
 import { listenToKeys } from './keys.js';
-import { LayerList } from './layers.js';
+import { layerCounts, LayerList } from './layers.js';
 import { Picked } from './picked.js';
 import { Player } from './player.js';
 import { showReadings } from './readings.js';
@@ -17,6 +17,7 @@ import { ViewerChoice } from './viewers.js';
 import { Watcher } from './watcher.js';
 import { streamAddress } from './connection.js';
 import { count, nameOf } from './words.js';
+import { showScale, showTime } from './clock.js';
 import { showWhy } from './why.js';
 
 const $ = (id) => document.getElementById(id);
@@ -70,37 +71,18 @@ function paint() {
     if (eye && !shown.framed) frameFirst(eye);
     showReadings({ size: $('pvs-size'), words: $('pvs-words'), list: $('readings') }, { step, viewer, view: eye, pvs: seen?.length, fates, world });
     showWhy($('why'), { picked: picked.about, world, viewer, seq: player.seq, fates, onPick: pick });
-    layerList.show(layerCounts());
+    layerList.show(layerCounts(shown));
     $('drawn-note').hidden = !step?.drawn || step.drawn.viewer === viewer;
     $('drawn-note').textContent = `Cells and TBVs of viewer ${viewer} come with the next frame.`;
-    showTime();
+    showTime({ history, player, driver });
+    $('follow').setAttribute('aria-pressed', String(view.follows));
+    $('eye-title').textContent = `What viewer ${viewer} sees: its PVS, nothing else`;
   }
   view.resize();
   view.draw(shown);
-  showScale();
+  showScale(start.dimension, view);
   timeline.resize();
   timeline.draw({ history, viewer, seq: player.seq, total: driver?.total });
-}
-
-/// Cells come in boxes of several.
-function cellsIn(boxes) {
-  if (!boxes) return undefined;
-  const n = start.dimension;
-  let sum = 0;
-  for (const box of boxes) {
-    let product = 1;
-    for (let axis = 0; axis < n; axis++) product *= Math.round((box[axis + n] - box[axis]) / start.cell);
-    sum += product;
-  }
-  return sum;
-}
-
-function layerCounts() {
-  const cells = shown.drawn?.cells ?? {};
-  return {
-    hidden: cellsIn(cells.hidden), opaque: cellsIn(cells.opaque), touched: cellsIn(cells.touched), tbv: shown.drawn?.volumes?.length,
-    unseen: fates.counts[Fate.unseen], beyond: fates.counts[Fate.beyond],
-  };
 }
 
 /// A viewer that sees a small part of the world is followed, otherwise the world is shown.
@@ -115,41 +97,6 @@ function follow(on) {
   else view.follows = false;
   $('follow').setAttribute('aria-pressed', String(on));
   redraw();
-}
-
-function showTime() {
-  const entry = history.entry(player.seq), behind = history.last - player.seq;
-  const of = driver ? ` of ${driver.total}` : '';
-  $('clock').textContent = entry ? `frame ${entry.seq}${of} · ${entry.time.toFixed(2)} s${!driver && behind > 0 ? ` · ${count(behind, 'frame')} behind` : ''}` : 'no frame yet';
-  $('play').textContent = player.playing && !(driver?.ended && player.atHead) ? 'Pause' : 'Play';
-  $('step-back').disabled = player.seq <= history.first;
-  $('step').disabled = player.atHead && (!driver || driver.ended);
-  $('newest').disabled = player.atHead;
-  $('follow').setAttribute('aria-pressed', String(view.follows));
-  const wait = $('wait');
-  wait.hidden = history.length > 0;
-  wait.textContent = driver ? 'Working out the first frame…' : 'This session has answered no frame since you came. As soon as its simulator sends one, it is drawn here.';
-  const slider = $('timeline');
-  slider.setAttribute('aria-valuemin', history.first);
-  slider.setAttribute('aria-valuemax', history.last);
-  slider.setAttribute('aria-valuenow', player.seq);
-  slider.setAttribute('aria-valuetext', $('clock').textContent);
-  $('eye-frame').hidden = start.dimension === 2 || !shown.view;
-  $('eye-title').textContent = `What viewer ${viewers.viewer} sees: its PVS, nothing else`;
-}
-
-function showScale() {
-  const box = $('scale');
-  box.hidden = start.dimension === 3;
-  if (start.dimension === 3) {
-    const p = view.pane;
-    if (p) Object.assign($('eye-frame').style, { left: `${p.x}px`, top: `${p.y}px`, width: `${p.width}px`, height: `${p.height}px` });
-    return;
-  }
-  let metres = 1e-3;
-  for (let power = 1e-3; power < 1e9; power *= 10) for (const step of [1, 2, 5]) if (step * power * view.camera.scale <= 160) metres = step * power;
-  box.querySelector('span').textContent = `${+metres.toPrecision(1)} m`;
-  box.querySelector('i').style.width = `${metres * view.camera.scale}px`;
 }
 
 // -- what goes wrong, in words
