@@ -16,7 +16,7 @@ import { View3d } from './view3d.js';
 import { ViewerChoice } from './viewers.js';
 import { Watcher } from './watcher.js';
 import { streamAddress } from './connection.js';
-import { count, nameOf } from './words.js';
+import { count } from './words.js';
 import { showScale, showTime } from './clock.js';
 import { showWhy } from './why.js';
 
