@@ -40,7 +40,7 @@ async function openTab(name, address = server.address) {
 }
 
 const text = (tab, selector) => tab.locator(selector).innerText();
-const until = (tab, selector, pattern) => tab.locator(selector).filter({ hasText: pattern }).first().waitFor({ timeout: 15000 });
+const until = (tab, selector, pattern) => tab.locator(selector).filter({ hasText: pattern }).first().waitFor({ timeout: 30000 });
 const frameOf = async (tab) => Number(/frame (\d+)/.exec(await text(tab, '#clock'))?.[1]);
 const sizeOf = async (tab) => Number(await text(tab, '#pvs-size'));
 const files = (world) => [`${worlds}/${world}/scene.json`, `${worlds}/${world}/frames.jsonl`];
@@ -63,7 +63,7 @@ async function onMap(tab, { bounds }, [x, y]) {
   return [box.x + box.width / 2 + (x - middle[0]) * scale, box.y + box.height / 2 - (y - middle[1]) * scale];
 }
 
-const answered = (tab) => tab.waitForFunction(() => !document.getElementById('why').innerText.includes('Working out'), null, { timeout: 20000 });
+const answered = (tab) => tab.waitForFunction(() => !document.getElementById('why').innerText.includes('Working out'), null, { timeout: 30000 });
 
 /// The page tells what is in the view by balls, the server precisely: some of the hidden may turn out to be outside.
 async function nextHidden(tab) {

@@ -16,6 +16,8 @@ node tests/page/history_test.mjs
 [ -e service/page/node_modules/playwright-core/package.json ] || skip "playwright-core is missing (npm ci in service/page)"
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || skip "chromium is missing"
 
+"$program" serve --help >/dev/null 2>&1 || skip "the program was built without its server"
+
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$program" make town --count 100 --viewers 6 --range 75 --frames 60 --seed 4 --out "$work/town" >/dev/null
