@@ -17,6 +17,7 @@ if [ -n "${1:-}" ]; then out=$(realpath -m "$caller/$1"); [[ "$1" == /* ]] && ou
 
 # shellcheck disable=SC2086  # the list is meant to be split
 need $packages_program
+need_page
 
 echo "== building the program (tests/run.sh adds the tests)"
 fresh=()
@@ -38,3 +39,4 @@ echo
 echo "answers:   $out/pvs.jsonl (one line a frame and driver)"
 echo "pictures:  $out/town.svg, $out/town-409.svg (open them in a browser)"
 echo "the town:  $out/town/scene.json, $out/town/frames.jsonl"
+echo "live:      $gridcull view $out/town/scene.json --frames $out/town/frames.jsonl (prints an address for your browser)"

@@ -22,6 +22,10 @@ done
 
 # shellcheck disable=SC2086  # the list is meant to be split
 need $packages_tests
+# npm may come with a nodejs from elsewhere, which is as good as Debian's.
+command -v npm >/dev/null && packages_page=chromium
+# shellcheck disable=SC2086
+need_page $packages_page
 
 cmake --preset "$preset" -DBUILD_TESTING=ON
 cmake --build --preset "$preset" -j "$jobs"

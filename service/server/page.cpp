@@ -2,6 +2,22 @@
 
 namespace gridcull {
 
+#ifdef GRIDCULL_WITH_PAGE
+
+/// Made from service/page by the build; ends with a null pointer.
+extern const char* const page_pieces[];
+
+std::string page_text() {
+  static const std::string text = [] {
+    std::string joined;
+    for (const char* const* piece = page_pieces; *piece; ++piece) joined += *piece;
+    return joined;
+  }();
+  return text;
+}
+
+#else
+
 std::string page_text() {
   return R"(<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>gridcull</title>
@@ -26,5 +42,7 @@ setInterval(show, 1000);
 </script>
 )";
 }
+
+#endif
 
 }  // namespace gridcull
