@@ -193,6 +193,9 @@ void Connection::watch(const WireRequest& request) {
   if (viewer != no_id) watched_->session.draw(viewer);
   say(watch_start(watched_->session, key.session));
   if (!again) watched_->watchers.push_back(weak_from_this());
+  // The world above holds what the last frame did: its time, views and answers are what is missing.
+  const Session& session = watched_->session;
+  if (session.seq() > 0) say(watch_step(session, Frame{.time = session.last_frame().time}));
 }
 
 void Connection::stop_watching() {

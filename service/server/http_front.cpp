@@ -54,9 +54,10 @@ HttpFront::Response HttpFront::respond(const Request& request, http::status stat
   response.set(http::field::content_type, type);
   response.set(http::field::cache_control, "no-store");
   response.set("X-Content-Type-Options", "nosniff");
-  // The page asks nobody else for anything.
+  // The page holds all that it needs and asks nobody else.
   response.set("Content-Security-Policy",
-               "default-src 'self' 'unsafe-inline' data: blob:; connect-src 'self' ws: wss:; frame-ancestors 'none'");
+               "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
+               "connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'self'");
   response.keep_alive(request.keep_alive());
   response.content_length(body.size());
   if (request.method() != http::verb::head) response.body() = std::move(body);
@@ -87,7 +88,7 @@ void HttpFront::answer() {
 }
 
 void HttpFront::send_file(const Request& request, const std::string& file) {
-  if (file.empty()) return send(respond(request, http::status::not_found, plain, "no trace: see gridcull view\n"));
+  if (file.empty()) return send(respond(request, http::status::no_content, plain, ""));  // see gridcull view
   try {
     send(respond(request, http::status::ok, json, read_text(file)));
   } catch (const Error& fault) {

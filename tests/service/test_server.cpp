@@ -357,6 +357,7 @@ TEST_CASE("a watcher sees the world, each frame, what a viewer's walk met, and w
   const Json watch{{"type", "watch"}, {"session", opened.at("session")}};
   const Json world = watcher.ask(watch);
   CHECK(world.at("seq") == 1);
+  CHECK(watcher.receive().at("seq") == 1);  // what there is to see already
   CHECK(world.at("scene").at("objects").size() == open_message()["scene"]["objects"].size());
   const Json answer = client.ask(frame_message(2));
   Json step = watcher.receive();
@@ -367,6 +368,7 @@ TEST_CASE("a watcher sees the world, each frame, what a viewer's walk met, and w
   Json choose = watch;
   choose["viewer"] = answer.at("answers")[0].at("viewer");
   CHECK(watcher.ask(choose).at("type") == "watching");
+  CHECK(watcher.receive().at("seq") == 2);
   client.ask(frame_message(3));
   step = watcher.receive();
   CHECK(step.at("drawn").at("viewer") == choose["viewer"]);
