@@ -32,6 +32,14 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gridcull)
 install(TARGETS ${installed} EXPORT gridcull_targets)
 if(TARGET gridcull)
   install(TARGETS gridcull)
+  get_target_property(service_definitions gridcull_service INTERFACE_COMPILE_DEFINITIONS)
+  if("GRIDCULL_WITH_SERVER" IN_LIST service_definitions)
+    # The client is one header that needs nothing of the rest.
+    install(FILES ${PROJECT_SOURCE_DIR}/service/client/gridcull_client.h
+      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gridcull/service/client)
+    configure_file(service/packaging/gridcull.service.in ${PROJECT_BINARY_DIR}/gridcull.service @ONLY)
+    install(FILES ${PROJECT_BINARY_DIR}/gridcull.service DESTINATION lib/systemd/system)
+  endif()
 endif()
 install(EXPORT gridcull_targets FILE gridcull-targets.cmake NAMESPACE gridcull:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/gridcull-config.cmake.in ${PROJECT_BINARY_DIR}/gridcull-config.cmake
