@@ -79,6 +79,7 @@ class Session {
   /// From the next frame on this viewer's cells and volumes are kept for drawing; no_id: nobody's. Only the grid engine
   /// draws.
   void draw(ViewerId viewer) { drawing_ = viewer; }
+  ViewerId drawing() const { return drawing_; }
   /// Of the last frame; nullptr where nothing was drawn.
   const DrawnView* drawn() const { return has_drawn_ ? &drawn_ : nullptr; }
 

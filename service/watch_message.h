@@ -14,7 +14,8 @@ namespace gridcull {
 nlohmann::ordered_json watch_start(const Session& session, const std::string& id);
 
 /// `{"type": "step", "seq", "time", "frame": {a frames/1 line}, "views": [...], "answers": [{"viewer", "visible"}],
-/// "stats": {...}, "drawn": {...}}`: the last frame; "drawn" (drawn_view.h) where somebody chose a viewer.
+/// "stats": {...}, "drawn": {...}}`: the last frame; "drawn" (drawn_view.h) where somebody chose a viewer;
+/// the server adds "exact", the size of that viewer's exact set when it was last audited.
 nlohmann::ordered_json watch_step(const Session& session, const Frame& frame);
 
 }  // namespace gridcull

@@ -33,7 +33,7 @@ Audit::~Audit() {
 }
 
 void Audit::offer(std::span<const Object> objects, int dimension, std::span<const View> views, const Answers& answers,
-                  Guarantee guarantee) {
+                  Guarantee guarantee, const Told& told) {
   if (!(rate_ > 0.0) || (dimension == 3 && !ExactRays::available())) return;
   std::shared_ptr<const std::vector<Object>> copy;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -46,7 +46,7 @@ void Audit::offer(std::span<const Object> objects, int dimension, std::span<cons
       continue;
     }
     if (!copy) copy = std::make_shared<const std::vector<Object>>(objects.begin(), objects.end());
-    jobs_.push_back({copy, dimension, views[i], answers.views[i], guarantee});
+    jobs_.push_back({copy, dimension, views[i], answers.views[i], guarantee, told});
     changed_.notify_one();
   }
 }
@@ -70,6 +70,7 @@ void Audit::run() {
 void Audit::judge(const Job& job) {
   const Judgement judgement = judged(*job.objects, job.dimension, job.view, job.answer);
   metrics_.audited.Increment();
+  job.told(job.view.viewer, judgement.exact);
   // A sampled method may miss and says so.
   if (job.guarantee == Guarantee::sampled) return;
   metrics_.audit_missed.Increment(static_cast<double>(judgement.misses.size()));

@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -25,10 +26,13 @@ class Audit {
   Audit(const Audit&) = delete;
   Audit& operator=(const Audit&) = delete;
 
+  /// Told from the audit's thread how many objects a judged view really sees (3D: at least).
+  using Told = std::function<void(ViewerId viewer, std::size_t exact)>;
+
   /// A frame's answers; copies the world when one of them is taken. Never waits: what finds the queue full is counted
   /// as skipped. From any thread.
   void offer(std::span<const Object> objects, int dimension, std::span<const View> views, const Answers& answers,
-             Guarantee guarantee);
+             Guarantee guarantee, const Told& told);
 
  private:
   struct Job {
@@ -37,6 +41,7 @@ class Audit {
     View view;
     Answer answer;
     Guarantee guarantee;
+    Told told;
   };
   static constexpr std::size_t most_jobs = 64;
 

@@ -151,7 +151,9 @@ void Connection::apply_frame(const WireRequest& request) {
   if (!is_new) return;
   note_frame(session, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (held_->watchers.empty()) return session.draw(no_id);
-  const auto message = std::make_shared<const std::string>(watch_step(session, session.last_frame()).dump());
+  nlohmann::ordered_json step = watch_step(session, session.last_frame());
+  if (const auto exact = held_->exact(session.drawing())) step["exact"] = *exact;
+  const auto message = std::make_shared<const std::string>(step.dump());
   std::erase_if(held_->watchers, [&](const auto& watcher) {
     const std::shared_ptr<SessionListener> there = watcher.lock();
     if (there) there->watched(message);
@@ -168,7 +170,11 @@ void Connection::note_frame(const Session& session, double seconds) {
   metrics.tbv_revealed.Increment(static_cast<double>(answers.stats.tbv_revealed));
   metrics.frame_seconds.Observe(seconds);
   for (const Answer& answer : answers.views) metrics.pvs_objects.Observe(static_cast<double>(answer.visible.size()));
-  parts_.audit.offer(session.world().objects(), session.dimension(), session.views(), answers, session.guarantee());
+  const auto told = [weak = std::weak_ptr(held_)](ViewerId viewer, std::size_t exact) {
+    if (const std::shared_ptr<HeldSession> held = weak.lock()) held->note_exact(viewer, exact);
+  };
+  parts_.audit.offer(session.world().objects(), session.dimension(), session.views(), answers, session.guarantee(),
+                     told);
 }
 
 void Connection::explain_object(const WireRequest& request) {

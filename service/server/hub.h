@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,21 @@ struct HeldSession {
   std::weak_ptr<SessionListener> client{};       ///< nobody: it waits for its client
   std::chrono::steady_clock::time_point left{};  ///< when its client went
   std::vector<std::weak_ptr<SessionListener>> watchers{};
+
+  /// Sizes of exact sets as last audited, by viewer; under a lock of their own.
+  void note_exact(ViewerId viewer, std::size_t size) {
+    const std::lock_guard lock(exact_mutex_);
+    exact_[viewer] = size;
+  }
+  std::optional<std::size_t> exact(ViewerId viewer) const {
+    const std::lock_guard lock(exact_mutex_);
+    const auto found = exact_.find(viewer);
+    return found == exact_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+ private:
+  mutable std::mutex exact_mutex_;
+  std::map<ViewerId, std::size_t> exact_;
 };
 
 class Hub {

@@ -77,7 +77,8 @@ void frame(std::string_view bytes) {
   for (const int dimension : {2, 3}) {
     refusals_are_fine([&] {
       const std::string once = frame_text(parse_frame(bytes, dimension, "fuzz"), dimension);
-      expect(frame_text(parse_frame(once, dimension, "again"), dimension) == once, "a frame to be read as it was written");
+      expect(frame_text(parse_frame(once, dimension, "again"), dimension) == once,
+             "a frame to be read as it was written");
     });
   }
 }

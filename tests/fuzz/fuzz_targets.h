@@ -1,5 +1,5 @@
-// What is fuzzed: the readers of everything that comes from outside. Each takes any bytes and gives back normally, unless
-// something is wrong: refusals (Error) are caught, everything else gets out.
+// What is fuzzed: the readers of everything that comes from outside. Each takes any bytes and gives back normally,
+// unless something is wrong: refusals (Error) are caught, everything else gets out.
 #pragma once
 
 #include <string_view>

@@ -427,7 +427,10 @@ TEST_CASE("an audit judges answers in the background and finds nothing amiss") {
   RunningServer server(options);
   RawSocket client(server.port());
   client.ask(open_message());
-  for (std::uint64_t seq = 1; seq <= 5; ++seq) client.ask(frame_message(seq));
+  Json answer;
+  for (std::uint64_t seq = 1; seq <= 5; ++seq) answer = client.ask(frame_message(seq)).at("answers")[0];
+  const Json viewer = answer.at("viewer");
+  const std::size_t seen = answer.at("visible").size();  // a town in 2D: what is reported is what is seen
   bool judged = false;
   for (int i = 0; i < 100 && !judged; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -435,6 +438,13 @@ TEST_CASE("an audit judges answers in the background and finds nothing amiss") {
         http_get(server.port(), "/metrics").body.find("\ngridcull_audited_answers_total 20\n") != std::string::npos;
   }
   CHECK(judged);
+  // Who watches is told the size of the exact set.
+  RawSocket watcher(server.port());
+  const Json sessions = Json::parse(http_get(server.port(), "/v1/sessions").body).at("sessions");
+  watcher.ask({{"type", "watch"}, {"session", sessions[0].at("session")}, {"viewer", viewer}});
+  watcher.receive();
+  client.ask(frame_message(6));
+  CHECK(watcher.receive().at("exact") == seen);
   CHECK(http_get(server.port(), "/metrics").body.find("\ngridcull_audit_missed_objects_total 0\n") !=
         std::string::npos);
 }
