@@ -162,6 +162,7 @@ JsonTree::JsonTree(std::string_view text, std::string source, ErrorCode code, En
     return;
   }
   FromCbor sink(builder);
+  strings_.reserve(text.size());  // a message in bulk is little else
   if (const std::string fault = read_cbor(text, deepest, sink); !fault.empty()) {
     throw Error(ErrorCode::bad_message, source_ + ": expected CBOR: " + fault);
   }

@@ -133,9 +133,10 @@ class Client {
 
   /// Sends any message and gives its answer.
   nlohmann::json ask(const nlohmann::json& message) {
-    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(message);
+    outgoing_.clear();
+    nlohmann::json::to_cbor(message, nlohmann::detail::output_adapter<std::uint8_t>(outgoing_));
     stream_->binary(true);
-    stream_->write(boost::asio::buffer(bytes));
+    stream_->write(boost::asio::buffer(outgoing_));
     boost::beast::flat_buffer buffer;
     stream_->read(buffer);
     const std::string text = boost::beast::buffers_to_string(buffer.data());
@@ -186,6 +187,7 @@ class Client {
   std::unique_ptr<Stream> stream_;
   std::string session_, token_;
   std::uint64_t seq_ = 0;
+  std::vector<std::uint8_t> outgoing_;  // kept for its memory
   std::map<std::uint32_t, Ids> seen_;
 };
 
