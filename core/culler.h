@@ -27,7 +27,7 @@ enum class Guarantee {
 };
 
 /// Where a pull-mode simulator is asked for positions. An object is read at most once a frame. Calls come
-/// from one thread at a time, but not always the same one.
+/// from one thread at a time, but not always the same one, and must not call the culler that asks.
 class PositionSource {
  public:
   virtual ~PositionSource() = default;

@@ -101,7 +101,7 @@ void LooseIndex::count(NodeId id, std::uint32_t step, int below) {
   }
 }
 
-void LooseIndex::place(Slot slot, const LooseBall& ball) {
+void LooseIndex::place(Slot slot, LooseBall ball) {
   Entry& entry = entries_[slot];
   const int height = static_cast<int>(levels_.size());
   const bool here = entry.level != nowhere;
@@ -152,7 +152,7 @@ void LooseIndex::erase(Slot slot) {
   --size_;
 }
 
-void LooseIndex::remember(Slot slot, const LooseBall& ball) {
+void LooseIndex::remember(Slot slot, LooseBall ball) {
   if (entries_[slot].place != none) {
     rows_[entries_[slot].place].ball = ball;
   } else {

@@ -40,8 +40,8 @@ class LooseIndex {
   /// Whether place() takes the ball: its centre lies in the box and its radius is at most half the box's greatest
   /// extent. What it does not take the caller keeps elsewhere.
   bool takes(const LooseBall& ball) const;
-  /// Enters the slot's ball or moves it. takes(ball).
-  void place(Slot slot, const LooseBall& ball);
+  /// Enters the slot's ball or moves it. takes(ball). (By value: it may be a ball of this index, which moves.)
+  void place(Slot slot, LooseBall ball);
   /// Nothing when it is not there.
   void erase(Slot slot);
   /// Moves a ball that stays in its node and keeps its radius: false, and nothing done, when it does not or is not
@@ -62,12 +62,13 @@ class LooseIndex {
     return true;
   }
   /// Keeps the ball of a slot that is not here, for ball().
-  void remember(Slot slot, const LooseBall& ball);
+  void remember(Slot slot, LooseBall ball);
   bool holds(Slot slot) const { return entries_[slot].level != nowhere; }
   /// Of a slot that is here or remembered.
   const LooseBall& ball(Slot slot) const { return rows_[entries_[slot].place].ball; }
   /// Of a slot that is here or remembered: where its ball is now, for item().
   BallRows::Place place_of(Slot slot) const { return entries_[slot].place; }
+  /// Places and items are good until something is placed, erased or remembered.
   const BallRows::Item& item(BallRows::Place place) const { return rows_[place]; }
   const BallRows& rows() const { return rows_; }
   std::uint64_t size() const { return size_; }

@@ -24,6 +24,7 @@ void SilhouetteWalk2D::begin(const LooseIndex& index, std::span<const Slot> outs
   sight_ = &sight;
   spots_.clear();
   pushed_.clear();
+  rows_.clear();  // a walk that ended in an exception may have left some
   const double side = index.side(index.top());
   double far = 0.0;
   for (int i = 0; i < 4; ++i) {

@@ -102,7 +102,7 @@ void SilhouetteWorld::remove(Slot slot) {
   bodies_[slot] = {};
 }
 
-bool SilhouetteWorld::enter(Slot slot, const LooseBall& ball) {
+bool SilhouetteWorld::enter(Slot slot, LooseBall ball) {
   if (index.takes(ball)) {
     index.place(slot, ball);
     return true;

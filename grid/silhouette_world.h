@@ -40,7 +40,7 @@ class SilhouetteWorld {
 
   /// Hangs the ball into the index. False when it does not fit there: then the index only remembers it, and the
   /// object belongs in GridWorld::outside.
-  bool enter(Slot slot, const LooseBall& ball);
+  bool enter(Slot slot, LooseBall ball);
 
   /// enter() for an object that moved a little: false, and nothing done, when more is to do than to move its ball.
   bool follow(Slot slot, const Pose& pose) { return index.follow(slot, ball_at(slot, pose)); }

@@ -172,6 +172,29 @@ TEST_CASE("a refused frame changes nothing") {
   }
 }
 
+TEST_CASE("the objects of a set are found again, whatever has come and gone between") {
+  World world(small_town());
+  const auto placed = [&](std::size_t i, ObjectId id, double x) {
+    CHECK(world.set_object(i).id == id);
+    CHECK(world.object(id).pose.position.x == x);
+  };
+  apply(
+      world,
+      R"({"time": 1, "set": [{"id": 0, "position": [1, 0]}, {"id": 5, "position": [2, 0]}, {"id": 9, "position": [3, 0]}]})");
+  placed(0, 0, 1), placed(1, 5, 2), placed(2, 9, 3);
+  // The last object moves into the hole of the first; the same frame sets it and another in a new order.
+  apply(world, R"({"time": 2, "remove": [0], "set": [{"id": 9, "position": [4, 0]}, {"id": 5, "position": [5, 0]}]})");
+  placed(0, 9, 4), placed(1, 5, 5);
+  apply(world, R"({"time": 3, "add": [{"id": 0, "shape": {"type": "disc", "radius": 1}, "position": [0, 0]}],
+                  "set": [{"id": 0, "position": [6, 0]}, {"id": 9, "position": [7, 0]}, {"id": 5, "position": [8, 0]}]})");
+  placed(0, 0, 6), placed(1, 9, 7), placed(2, 5, 8);
+  CHECK_THROWS_AS(apply(world, R"({"time": 4, "set": [{"id": 0, "position": [9, 0]}, {"id": 77}]})"), Error);
+  CHECK_THROWS_AS(apply(world, R"({"time": 4, "remove": [9], "set": [{"id": 0}, {"id": 9}]})"), Error);
+  apply(world, R"({"time": 5, "set": [{"id": 0, "position": [10, 0]}]})");
+  placed(0, 0, 10);
+  CHECK(world.object(9).pose.position.x == 7);
+}
+
 TEST_CASE("frames made by a program are checked as files are") {
   World world(small_town());
   const std::string before = state_of(world);

@@ -62,24 +62,45 @@ void run(int dimension, const Bounds& box, double side, unsigned seed) {
   LooseIndex index(dimension, box, side);
   const std::uint32_t slots = 60;
   index.reserve(slots);
-  for (Slot slot = 0; slot < slots; slot += 2) index.set_marks(slot, static_cast<std::uint8_t>(slot));
-  std::map<Slot, LooseBall> truth;
+  for (Slot slot = 0; slot < slots; ++slot) index.set_marks(slot, static_cast<std::uint8_t>(slot));
+  std::map<Slot, LooseBall> truth, remembered;
   for (int step = 0; step < 400; ++step) {
     const auto slot = static_cast<Slot>(random() % slots);
     if (random() % 4 == 0) {
       index.erase(slot);
       truth.erase(slot);
+      remembered.erase(slot);
     } else {
       LooseBall ball{{}, random() % 3 == 0 ? side * 0.5 : box.size().x * std::pow(unit(), 6.0)};
       for (int k = 0; k < dimension; ++k) ball.centre[k] = box.min[k] + box.size()[k] * unit();
       if (random() % 8 == 0) ball.centre.x = box.max.x;
       if (random() % 8 == 0) ball.centre.y = box.min.y;
-      if (!index.takes(ball)) continue;
-      index.place(slot, ball);
-      index.set_marks(slot, static_cast<std::uint8_t>(slot));
-      truth[slot] = ball;
+      const bool enters = index.takes(ball) && random() % 5 != 0;
+      if (enters) {
+        index.place(slot, ball);
+        truth[slot] = ball;
+        remembered.erase(slot);
+        // A little way, with the radius that it has.
+        LooseBall moved = ball;
+        moved.centre.x += 0.01 * side;
+        if (index.takes(moved) && (random() % 2 == 0 ? index.follow(slot, moved.centre) : index.follow(slot, moved))) {
+          truth[slot] = moved;
+        }
+      } else {
+        index.erase(slot);
+        index.remember(slot, ball);
+        truth.erase(slot);
+        remembered[slot] = ball;
+      }
     }
-    if (step % 40 == 39) check(index, truth);
+    if (step % 40 != 39) continue;
+    check(index, truth);
+    for (const auto& [kept, ball] : remembered) {
+      CHECK_FALSE(index.holds(kept));
+      CHECK(index.ball(kept).centre == ball.centre);
+      CHECK(index.item(index.place_of(kept)).slot == kept);
+      CHECK(index.item(index.place_of(kept)).marks == static_cast<std::uint8_t>(kept));
+    }
   }
 }
 
