@@ -119,6 +119,18 @@ class LooseIndex {
   void prefetch_ball(Slot slot) const {
     if (entries_[slot].place != none) rows_.prefetch_item(entries_[slot].place);
   }
+  /// Hints that the slot will leave its node soon, in the order in which memory is needed: what prefetch() asked for,
+  /// its node and ball, the row's first chunk.
+  void prefetch_node(Slot slot) const {
+    const Entry& entry = entries_[slot];
+    if (entry.level == nowhere) return;
+    __builtin_prefetch(&levels_[entry.level].nodes[entry.node]);
+    rows_.prefetch_item(entry.place);
+  }
+  void prefetch_row(Slot slot) const {
+    const Entry& entry = entries_[slot];
+    if (entry.level != nowhere) rows_.prefetch(levels_[entry.level].nodes[entry.node].first);
+  }
   /// Box that holds the balls of everything in the node and below (grown by half a side and the rounding).
   Bounds loose_box(const NodeId& id) const;
 
