@@ -329,7 +329,8 @@ TEST_CASE("a watcher that does not read is let go; the session does not notice")
   watcher.ask({{"type", "watch"}, {"session", opened.at("session")}});
   // Frames full of moves, so that the sockets' own buffers fill.
   Json moves = Json::array();
-  for (const Json& object : open_message()["scene"]["objects"]) {
+  const Json open = open_message();
+  for (const Json& object : open["scene"]["objects"]) {
     moves.push_back({{"id", object["id"]}, {"position", object["position"]}});
   }
   std::uint64_t seq = 0;
