@@ -220,11 +220,7 @@ bool GridEngine::State::lengthen_term(ObjectState& state) {
   const auto longer = static_cast<float>(terms.longer(state.term, state.max_speed));
   if (!(longer > state.term)) return false;
   const TbvMatrix::Ball grown{state.pose.position, TbvTerm::radius(state.max_speed, longer, state.reach)};
-  if (world.silhouettes) {
-    if (world.silhouettes->near_seen({grown.centre, grown.radius}, world.frame)) return false;
-  } else if (!world.tbv.fits(grown) || world.near_seen(grown)) {
-    return false;
-  }
+  if (!world.silhouettes && (!world.tbv.fits(grown) || world.near_seen(grown))) return false;
   state.term = longer;
   return true;
 }

@@ -112,8 +112,6 @@ bool SilhouetteWorld::enter(Slot slot, LooseBall ball) {
   return false;
 }
 
-bool SilhouetteWorld::near_seen(const LooseBall&, std::uint64_t) const { return false; }
-
 std::uint64_t SilhouetteWorld::shape_bytes() const {
   std::uint64_t bytes = outlines.bytes() + bodies_.capacity() * sizeof(Body);
   for (const Body& body : bodies_) {

@@ -62,9 +62,6 @@ class SilhouetteWorld {
     index.set_marks(slot, static_cast<std::uint8_t>(on ? marks | is_hidden : marks & ~is_hidden));
   }
 
-  /// Whether somebody looked into a node that the ball reaches in this or the last frame.
-  bool near_seen(const LooseBall& ball, std::uint64_t frame) const;
-
   /// What a 3D object hides with and is tested with; nullptr for balls that are tested as balls.
   struct Solid {
     OccluderPieces pieces;  ///< none of balls

@@ -9,6 +9,7 @@
 #include "gridcull/service/build_facts.h"
 #include "gridcull/service/run_report.h"
 #include "gridcull/service/text.h"
+#include "gridcull/sim/stats.h"
 
 namespace gridcull {
 namespace {
@@ -55,12 +56,6 @@ constexpr std::array columns{"scene",
                              "refused"};
 
 std::string number(double value) { return std::isfinite(value) ? number_text(value, 6) : std::string(); }
-
-std::string hash_text(std::uint64_t hash) {
-  char text[24];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
 
 double missed_share(const BenchRow& row) {
   return row.verdict.exact == 0 ? std::nan("")

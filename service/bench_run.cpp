@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <limits>
 #include <memory>
 
 #include <malloc.h>
-#include <unistd.h>
 
 #include "gridcull/core/error.h"
 #include "gridcull/core/hash.h"
 #include "gridcull/service/bench_course.h"
 #include "gridcull/service/interrupt.h"
+#include "gridcull/sim/stats.h"
 
 namespace gridcull {
 namespace {
@@ -24,13 +23,6 @@ constexpr std::size_t most_moves = 1'000'000;  // kept for one run
 
 double microseconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::micro>(to - from).count();
-}
-
-std::uint64_t resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  std::uint64_t all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 /// What malloc() has given out.

@@ -1,20 +1,13 @@
 #include "gridcull/service/run_report.h"
 
-#include <cstdio>
-
 #include "gridcull/service/table.h"
 #include "gridcull/service/text.h"
+#include "gridcull/sim/stats.h"
 
 namespace gridcull {
 namespace {
 
 std::string milliseconds(double microseconds) { return number_text(microseconds / 1000.0, 3) + " ms"; }
-
-std::string hash_text(std::uint64_t hash) {
-  char buffer[24];
-  std::snprintf(buffer, sizeof buffer, "%016llx", static_cast<unsigned long long>(hash));
-  return buffer;
-}
 
 }  // namespace
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <fstream>
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include "gridcull/sim/json_text.h"
 #include "gridcull/sim/text_file.h"
@@ -44,13 +46,6 @@ void append_spread(std::string& out, std::string_view key, const Spread& spread)
   append_value(out, "p99", spread.p99);
   append_value(out, "max", spread.max);
   out += '}';
-}
-
-std::string hex(std::uint64_t value) {
-  std::array<char, 16> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, 16).ptr;
-  const std::string text(digits.data(), end);
-  return std::string(16 - text.size(), '0') + text;
 }
 
 }  // namespace
@@ -111,6 +106,20 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;  // Linux counts in KiB
 }
 
+std::uint64_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::string hash_text(std::uint64_t hash) {
+  std::array<char, 16> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16).ptr;
+  const std::string text(digits.data(), end);
+  return std::string(16 - text.size(), '0') + text;
+}
+
 std::string stats_text(const Stats& stats) {
   std::string out = "{\"format\": \"gridcull.stats/1\"";
   append_key(out, "method");
@@ -139,7 +148,7 @@ std::string stats_text(const Stats& stats) {
   append_value(out, "cells_visited_mean", stats.cells_visited_mean);
   append_count(out, "peak_memory_bytes", stats.peak_memory_bytes);
   append_key(out, "pvs_hash");
-  append_string(out, hex(stats.pvs_hash));
+  append_string(out, hash_text(stats.pvs_hash));
   return out + "}\n";
 }
 

@@ -59,6 +59,11 @@ class StatsCollector {
 
 /// Greatest resident memory of this process so far, bytes.
 std::uint64_t peak_memory_bytes();
+/// Resident memory of this process now, bytes; 0 where the system does not say.
+std::uint64_t resident_bytes();
+
+/// A hash as it stands in files: 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
 
 std::string stats_text(const Stats& stats);
 /// "-" is standard output. The file appears whole or not at all. Throws Error(io).

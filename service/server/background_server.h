@@ -1,4 +1,4 @@
-// A server in threads of its own, on any free port, for as long as this lives: benchmarks talk to it.
+// A server in threads of its own, on any free port, for as long as this lives: benchmarks and tests talk to it.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,17 @@ namespace gridcull {
 
 class BackgroundServer {
  public:
-  explicit BackgroundServer(ServerOptions options)
+  explicit BackgroundServer(ServerOptions options = {})
       : server_(on_any_port(options)), thread_([this] { server_.run(false); }) {}
-  ~BackgroundServer() {
+  ~BackgroundServer() { stop(); }
+  BackgroundServer(const BackgroundServer&) = delete;
+  BackgroundServer& operator=(const BackgroundServer&) = delete;
+  /// Gives back when the server has ended.
+  void stop() {
+    if (!thread_.joinable()) return;
     server_.stop();
     thread_.join();
   }
-  BackgroundServer(const BackgroundServer&) = delete;
-  BackgroundServer& operator=(const BackgroundServer&) = delete;
   std::uint16_t port() const { return server_.port(); }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/service/server/secrets.h"
+#include "gridcull/sim/stats.h"
 
 namespace gridcull {
 namespace {
@@ -23,13 +24,6 @@ class Opening {
   std::mutex& mutex_;
   std::uint64_t& count_;
 };
-
-std::string hex_text(std::uint64_t value) {
-  static constexpr char digits[] = "0123456789abcdef";
-  std::string text;
-  for (int shift = 60; shift >= 0; shift -= 4) text += digits[value >> shift & 15];
-  return text;
-}
 
 }  // namespace
 
@@ -128,7 +122,7 @@ nlohmann::ordered_json Hub::list() const {
                         {"viewers", session.world().viewer_count()},
                         {"seq", session.seq()},
                         {"connected", !held->client.expired()},
-                        {"pvs_hash", hex_text(session.pvs_hash())}});
+                        {"pvs_hash", hash_text(session.pvs_hash())}});
   }
   return {{"sessions", std::move(sessions)}};
 }

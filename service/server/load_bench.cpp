@@ -14,7 +14,6 @@
 
 #include "gridcull/service/client/gridcull_client.h"
 #include "gridcull/service/server/background_server.h"
-#include "gridcull/service/server/metrics.h"
 #include "gridcull/sim/generate.h"
 #include "gridcull/sim/stats.h"
 
@@ -107,8 +106,8 @@ LoadResult bench_load(const LoadSettings& settings, const std::function<void()>&
     const auto early = start + std::chrono::duration<double>(settings.seconds / 6.0);
     while (running > 0) {
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
-      if (all.memory_early == 0.0 && Clock::now() > early) all.memory_early = resident_bytes();
-      if (running > settings.sessions / 2) all.memory_late = resident_bytes();
+      if (all.memory_early == 0.0 && Clock::now() > early) all.memory_early = static_cast<double>(resident_bytes());
+      if (running > settings.sessions / 2) all.memory_late = static_cast<double>(resident_bytes());
       tick();
     }
   } catch (...) {

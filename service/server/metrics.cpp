@@ -1,9 +1,8 @@
 #include "gridcull/service/server/metrics.h"
 
-#include <cstdio>
-
 #include <prometheus/text_serializer.h>
-#include <unistd.h>
+
+#include "gridcull/sim/stats.h"
 
 namespace gridcull {
 namespace {
@@ -22,15 +21,6 @@ prometheus::Histogram& histogram(prometheus::Registry& registry, const char* nam
 }
 
 }  // namespace
-
-double resident_bytes() {
-  std::FILE* file = std::fopen("/proc/self/statm", "r");
-  if (file == nullptr) return 0.0;
-  unsigned long all = 0, resident = 0;
-  const int read = std::fscanf(file, "%lu %lu", &all, &resident);
-  std::fclose(file);
-  return read == 2 ? static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) : 0.0;
-}
 
 Metrics::Metrics()
     : rejected_(prometheus::BuildCounter()
@@ -57,7 +47,7 @@ Metrics::Metrics()
                             {0, 1, 3, 10, 30, 100, 300, 1000, 3000, 10000, 100000})) {}
 
 std::string Metrics::text() const {
-  memory_.Set(resident_bytes());
+  memory_.Set(static_cast<double>(resident_bytes()));
   return prometheus::TextSerializer().Serialize(registry_.Collect());
 }
 

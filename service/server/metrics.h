@@ -12,9 +12,6 @@
 
 namespace gridcull {
 
-/// Resident bytes of this process, 0 where the system does not say.
-double resident_bytes();
-
 class Metrics {
  public:
   Metrics();

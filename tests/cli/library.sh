@@ -3,7 +3,8 @@ set -uo pipefail
 shopt -s nullglob
 program=$(realpath "$1")
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+server=  # the process of serve() while it runs
+trap '[ -z "$server" ] || kill -9 "$server" 2>/dev/null; rm -rf "$work"' EXIT
 cd "$work" || exit 1
 mkdir out
 failures=0 checks=0
@@ -61,4 +62,31 @@ same() {
 is() {
   checks=$((checks + 1))
   [ "$2" = "$3" ] || fail "$1: '$2', expected '$3'"
+}
+
+# serve NAME COMMAND...: a server in the background, whose output goes to NAME and NAME.err; sets server and port.
+serve() {
+  local out=$1
+  shift
+  checks=$((checks + 1))
+  "$program" "$@" >"$out" 2>"$out.err" &
+  server=$!
+  for _ in $(seq 100); do
+    grep -qs "^listening on http://127.0.0.1:" "$out" && break
+    sleep 0.05
+  done
+  port=$(sed -n '1s/^listening on http:\/\/127.0.0.1:\([0-9]*\)$/\1/p' "$out")
+  [ -n "$port" ] || fail "$*: no first line with the address"
+}
+
+# ended NAME: SIGTERM ends the server with status 0 and nothing on standard error.
+ended() {
+  local status
+  checks=$((checks + 1))
+  kill -TERM "$server"
+  wait "$server"
+  status=$?
+  server=
+  [ "$status" -eq 0 ] || fail "$1: status $status after SIGTERM, expected 0"
+  [ ! -s "$1.err" ] || fail "$1: something on standard error: $(cat "$1.err")"
 }

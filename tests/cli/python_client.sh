@@ -1,32 +1,22 @@
 #!/usr/bin/env bash
 # The Python client against a real server: the same answers and hash as `gridcull run`, a resume, refusals.
 #   python_client.sh PROGRAM
-set -uo pipefail
-program=$(realpath "$1")
-clients=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../examples/python" && pwd)
+clients=$(cd "$(dirname "$0")/../../examples/python" && pwd)
+source "$(dirname "$0")/library.sh"
 "$program" serve --help >/dev/null 2>&1 || { echo "serve is not built: skipped"; exit 77; }
 python=
 for candidate in python3 /usr/bin/python3; do
   "$candidate" -c "import websockets, cbor2, numpy" 2>/dev/null && python=$candidate && break
 done
 [ -n "$python" ] || { echo "no python3 with websockets, cbor2 and numpy: skipped"; exit 77; }
-work=$(mktemp -d)
-server=
-trap '[ -z "$server" ] || kill "$server" 2>/dev/null; rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-fail() { echo "FAILED: $*" >&2; failures=$((failures + 1)); }
 
-"$program" make town --count 40 --viewers 5 --range 80 --frames 60 --out town >/dev/null
-"$program" run town/scene.json --frames town/frames.jsonl --out run.jsonl --stats stats.json
-"$program" serve --port 0 >out 2>err &
-server=$!
-for _ in $(seq 100); do grep -q "^listening on " out && break; sleep 0.05; done
-url=$(sed -n 's/^listening on http/ws/p' out)
-
-said=$("$python" "$clients/replay.py" "$url" town/scene.json town/frames.jsonl python.jsonl) || fail "replay.py"
+good "make" make town --count 40 --viewers 5 --range 80 --frames 60 --out town
+good "run" run town/scene.json --frames town/frames.jsonl --out run.jsonl --stats stats.json
+serve server serve --port 0
+url=ws://127.0.0.1:$port
 hash=$(sed -n 's/.*"pvs_hash": "\([0-9a-f]*\)".*/\1/p' stats.json)
-[ "$said" = "60 frames, pvs_hash $hash" ] || fail "expected 60 frames, pvs_hash $hash, found: $said"
+is "replay.py" "$("$python" "$clients/replay.py" "$url" town/scene.json town/frames.jsonl python.jsonl)" \
+  "60 frames, pvs_hash $hash"
 "$python" - run.jsonl python.jsonl <<'PY' || fail "the answers differ"
 import json, sys
 a, b = ([json.loads(line) for line in open(name)][1:] for name in sys.argv[1:])
@@ -57,5 +47,5 @@ async def main():
 
 asyncio.run(main())
 PY
-[ "$failures" -eq 0 ] && echo "all well"
-exit $((failures > 0))
+ended server
+finish

@@ -1,10 +1,8 @@
 // A real server in threads of its own, on a free port, and plain ways to talk to it.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <utility>  // before Asio: Boost 1.74 does not include it in C++20
 
 #include <boost/asio/connect.hpp>
@@ -19,7 +17,7 @@
 #include <boost/beast/websocket/stream.hpp>
 #include <nlohmann/json.hpp>
 
-#include "gridcull/service/server/server.h"
+#include "gridcull/service/server/background_server.h"
 
 namespace gridcull::test {
 
@@ -27,26 +25,7 @@ namespace beast = boost::beast;
 using Json = nlohmann::json;
 using Tcp = boost::asio::ip::tcp;
 
-class RunningServer {
- public:
-  explicit RunningServer(ServerOptions options = {}) {
-    options.port = 0;
-    server_ = std::make_unique<Server>(options);
-    thread_ = std::thread([this] { server_->run(false); });
-  }
-  ~RunningServer() { stop(); }
-  /// Gives back when the server has ended.
-  void stop() {
-    if (!thread_.joinable()) return;
-    server_->stop();
-    thread_.join();
-  }
-  std::uint16_t port() const { return server_->port(); }
-
- private:
-  std::unique_ptr<Server> server_;
-  std::thread thread_;
-};
+using RunningServer = BackgroundServer;
 
 inline Tcp::socket connected(boost::asio::io_context& context, std::uint16_t port) {
   Tcp::socket socket(context);

@@ -13,6 +13,7 @@
 #include "gridcull/service/client/gridcull_client.h"
 #include "gridcull/sim/generate.h"
 #include "gridcull/sim/replay.h"
+#include "gridcull/sim/stats.h"
 #include "gridcull/tests/service/server_fixture.h"
 #include "gridcull/tests/sim_helpers.h"
 
@@ -417,9 +418,7 @@ TEST_CASE("a record is the session: it replays to the same answers") {
   }
   CHECK(steps == 5);
   const Json listed = Json::parse(http_get(server.port(), "/v1/sessions").body).at("sessions")[0];
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.value()));
-  CHECK(listed.at("pvs_hash") == text);
+  CHECK(listed.at("pvs_hash") == hash_text(hash.value()));
 }
 
 TEST_CASE("an audit judges answers in the background and finds nothing amiss") {

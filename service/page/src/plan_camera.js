@@ -1,18 +1,13 @@
 // The camera of the ground plan: what is where on the canvas, moved by pointer and wheel. Subclasses know what is hit.
+import { fitCanvas } from './fit_canvas.js';
+
 export class PlanCamera {
   constructor(canvas, { onPick, onMove }) {
     Object.assign(this, { canvas, onPick, onMove, camera: { x: 0, y: 0, scale: 1 }, follows: false });
     this.listen();
   }
 
-  resize() {
-    const { clientWidth, clientHeight } = this.canvas, ratio = devicePixelRatio || 1;
-    this.width = clientWidth;
-    this.height = clientHeight;
-    this.ratio = ratio;
-    const w = Math.round(clientWidth * ratio), h = Math.round(clientHeight * ratio);
-    if (this.canvas.width !== w || this.canvas.height !== h) Object.assign(this.canvas, { width: w, height: h });
-  }
+  resize() { fitCanvas(this); }
 
   frame(centre, half) {
     this.camera = { x: centre[0], y: centre[1], scale: Math.min(this.width / half[0], this.height / half[1]) / 2 };

@@ -1,5 +1,6 @@
 // PVS size of the chosen viewer (and the exact size, where audited) over the frames, frame time below it.
 import { colours } from './colours.js';
+import { fitCanvas } from './fit_canvas.js';
 
 const left = 46, right = 12, top = 15, gap = 17, foot = 6;
 
@@ -32,14 +33,7 @@ export class Timeline {
     canvas.addEventListener('pointerup', () => { held = false; });
   }
 
-  resize() {
-    const { clientWidth, clientHeight } = this.canvas, ratio = devicePixelRatio || 1;
-    this.width = clientWidth;
-    this.height = clientHeight;
-    this.ratio = ratio;
-    const w = Math.round(clientWidth * ratio), h = Math.round(clientHeight * ratio);
-    if (this.canvas.width !== w || this.canvas.height !== h) Object.assign(this.canvas, { width: w, height: h });
-  }
+  resize() { fitCanvas(this); }
 
   /// Frames from the first to the last kept one fill the width; few frames keep a sensible step.
   get span() { return Math.max(this.total ?? 0, this.history.length, 20); }
