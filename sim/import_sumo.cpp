@@ -1,14 +1,13 @@
 #include "gridcull/sim/import_sumo.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "gridcull/core/error.h"
-#include "gridcull/core/trigonometry.h"
 #include "gridcull/sim/import_parts.h"
 #include "gridcull/sim/json_text.h"
 #include "gridcull/sim/sumo_buildings.h"
 #include "gridcull/sim/sumo_fcd.h"
+#include "gridcull/sim/sumo_shapes.h"
 
 namespace gridcull {
 namespace {
@@ -36,14 +35,6 @@ void check(const SumoOptions& options) {
     for (const double side : *options.box) found += (found.empty() ? "" : ",") + short_number(side);
     throw Error(ErrorCode::usage, "box: expected x0,y0,x1,y1 with x0 < x1 and y0 < y1, found " + found);
   }
-}
-
-/// Heading in degrees, counter-clockwise from +x, -180 < heading <= 180 for SUMO's 0 .. 360.
-double heading_degrees(double angle) {
-  double turned = std::fmod(90.0 - angle, 360.0);
-  if (turned <= -180.0) turned += 360.0;
-  if (turned > 180.0) turned -= 360.0;
-  return turned;
 }
 
 class Import {
@@ -100,11 +91,10 @@ class Import {
     out.reserve(step.movers.size());
     for (const FcdMover& mover : step.movers) {
       MoverState state;
-      state.heading = heading_degrees(mover.angle) * (std::numbers::pi / 180.0);
+      state.heading = sumo_heading(mover.angle);
       state.position = {mover.x, mover.y, 0.0};
       if (!mover.person) {
-        const SinCos turn = stable_sincos(state.heading);
-        state.position -= 0.5 * options_.vehicle_size.x * Vec3(turn.cos, turn.sin, 0.0);
+        state.position = vehicle_middle(state.position, state.heading, options_.vehicle_size.x);
       }
       if (!inside(state.position)) continue;
       // Vehicles and persons have separate names in SUMO.

@@ -1,7 +1,5 @@
-// Import of SUMO's floating-car data and building polygons.
-//
-// SUMO gives the middle of a vehicle's front bumper and its angle in degrees clockwise from north (+y);
-// a box of ours has its centre half a length behind. Persons become discs about their position.
+// Import of SUMO's floating-car data and building polygons: vehicles become boxes (sim/sumo_shapes.h), persons discs
+// about their position.
 #pragma once
 
 #include <array>

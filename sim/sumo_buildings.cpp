@@ -1,13 +1,13 @@
 #include "gridcull/sim/sumo_buildings.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <pugixml.hpp>
 
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/error.h"
 #include "gridcull/sim/import_parts.h"
+#include "gridcull/sim/sumo_shapes.h"
 #include "gridcull/sim/text_file.h"
 
 namespace gridcull {
@@ -37,21 +37,10 @@ std::vector<Vec2> parse_outline(std::string_view text, const Place& place) {
   }
 }
 
-std::size_t distinct_points(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](auto& a, auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  return static_cast<std::size_t>(std::unique(points.begin(), points.end()) - points.begin());
-}
-
-/// Vertices about a position of whole metres in the middle: near the origin's size the differences, and the
-/// sums that give them back, are then exact, so shared walls stay shared.
-SceneObject building(std::vector<Vec2> outline, const Bounds& around) {
-  SceneObject out;
-  const Vec3 middle = around.centre();
-  out.object.pose.position = {std::floor(middle.x), std::floor(middle.y), 0.0};
-  for (Vec2& p : outline) p -= Vec2(out.object.pose.position);
-  out.object.shape = Polygon{std::move(outline)};
-  out.object.is_static = true;
-  return out;
+bool meets(const std::vector<Vec2>& outline, const std::array<double, 4>& box) {
+  Bounds around;
+  for (const Vec2& p : outline) around.add({p.x, p.y, 0.0});
+  return around.min.x <= box[2] && around.max.x >= box[0] && around.min.y <= box[3] && around.max.y >= box[1];
 }
 
 }  // namespace
@@ -73,25 +62,21 @@ std::vector<SceneObject> read_sumo_buildings(const std::string& path, const std:
   }
   std::vector<SceneObject> out;
   for (const pugi::xml_node& node : root.children("poly")) {
-    if (!std::string_view(node.attribute("type").value()).starts_with("building")) continue;
+    if (!is_sumo_building(node.attribute("type").value())) continue;
     const auto where = [&] {
       return place(node.offset_debug()) + "polygon " + quoted(node.attribute("id").value()) + ": ";
     };
     if (node.attribute("geo").as_bool()) refuse(where(), "expected coordinates in metres, found geo coordinates");
-    const std::vector<Vec2> outline = merged_outline(parse_outline(node.attribute("shape").value(), where));
-    const std::size_t points = distinct_points(outline);
-    if (points < 3) {
+    const std::vector<Vec2> outline = parse_outline(node.attribute("shape").value(), where);
+    std::optional<SceneObject> building = sumo_building(outline, node.attribute("id").value());
+    if (!building) {
+      const std::size_t points = distinct_points(merged_outline(outline));
       notes.push_back(where() + std::to_string(points) + " distinct points, at least 3 are needed: skipped");
       continue;
     }
-    Bounds around;
-    for (const Vec2& p : outline) around.add({p.x, p.y, 0.0});
-    const bool meets = !box || (around.min.x <= (*box)[2] && around.max.x >= (*box)[0] && around.min.y <= (*box)[3] &&
-                                around.max.y >= (*box)[1]);
-    if (!meets) continue;
-    out.push_back(building(outline, around));
-    out.back().object.id = static_cast<ObjectId>(out.size() - 1);
-    out.back().name = node.attribute("id").value();
+    if (box && !meets(outline, *box)) continue;
+    building->object.id = static_cast<ObjectId>(out.size());
+    out.push_back(std::move(*building));
   }
   return out;
 }
