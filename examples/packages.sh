@@ -3,7 +3,10 @@
 
 packages_program="build-essential cmake ninja-build libglm-dev libtbb-dev nlohmann-json3-dev libcli11-dev
   libpugixml-dev zlib1g-dev libboost-dev libembree-dev prometheus-cpp-dev"
-packages_tests="$packages_program git doctest-dev libcgal-dev gnuplot-nox python3-websockets python3-cbor2 python3-numpy"
+packages_sumo="sumo sumo-tools python3"
+packages_crowd="librecast-dev python3"
+packages_tests="$packages_program $packages_sumo $packages_crowd git doctest-dev libcgal-dev gnuplot-nox
+  python3-websockets python3-cbor2 python3-numpy"
 packages_page="nodejs npm chromium"
 
 # need PACKAGE...: installs what is missing as root; otherwise names it in one line and stops with status 2.
