@@ -18,7 +18,7 @@ foreach(target ${installed})
   get_target_property(libraries ${target} LINK_LIBRARIES)
   list(APPEND linked ${libraries})
 endforeach()
-foreach(known "embree|find_dependency(embree 3 CONFIG)" "ZLIB::ZLIB|find_dependency(ZLIB)"
+foreach(known "embree|find_dependency(embree 3 CONFIG)" "assimp::assimp|find_dependency(assimp CONFIG)" "ZLIB::ZLIB|find_dependency(ZLIB)"
               "pugixml::pugixml|find_dependency(pugixml)" "nlohmann_json::nlohmann_json|find_dependency(nlohmann_json)")
   string(REPLACE "|" ";" known "${known}")
   list(GET known 0 library)

@@ -54,6 +54,7 @@ void make_shape(const Shape& shape, Solid& solid) {
     for (const Vec3& p : convex->vertices) solid.box.add(p);
   } else if (const auto* faces = std::get_if<Faces>(&shape)) {
     solid.kind = SolidKind::faces;
+    solid.closed = faces->closed;
     solid.triangles = faces->triangles;
     for (const Vec3& p : faces->vertices) solid.box.add(p);
   }
@@ -187,8 +188,25 @@ void add_stretches(const Solid& solid, const Vec3& eye, const Vec3& ray, std::ve
   out.push_back(s);
 }
 
+namespace {
+
+/// The point lies between the crossings that it should: none near it, and an odd number ahead.
+bool odd_ahead(const std::vector<Stretch>& crossings, double margin) {
+  const auto near = [&](const Stretch& s) { return std::fabs(s.begin) <= margin; };
+  const auto ahead = std::count_if(crossings.begin(), crossings.end(), [](const Stretch& s) { return s.begin > 0.0; });
+  return ahead % 2 != 0 && std::none_of(crossings.begin(), crossings.end(), near);
+}
+
+bool within_one(const std::vector<Stretch>& stretches, double margin) {
+  return std::any_of(stretches.begin(), stretches.end(),
+                     [&](const Stretch& s) { return s.begin < -margin && s.end > margin; });
+}
+
+}  // namespace
+
 bool surely_holds(const Solid& solid, const Vec3& point) {
-  if (solid.kind == SolidKind::faces || glm::length(point - solid.position) > solid.reach * (1.0 + blur)) return false;
+  if (solid.kind == SolidKind::faces && !solid.closed) return false;
+  if (glm::length(point - solid.position) > solid.reach * (1.0 + blur)) return false;
   const double margin = blur * (std::fabs(point.x) + std::fabs(point.y) + std::fabs(point.z) + solid.reach);
   // Inside and not near the surface in any of seven directions that no outline is aligned with.
   constexpr std::array<std::array<double, 3>, 7> rays{{{0.6, 0.7, 0.39},
@@ -202,9 +220,7 @@ bool surely_holds(const Solid& solid, const Vec3& point) {
   for (const auto& r : rays) {
     stretches.clear();
     add_stretches(solid, point, glm::normalize(Vec3(r[0], r[1], r[2])), stretches);
-    const bool holds = std::any_of(stretches.begin(), stretches.end(),
-                                   [&](const Stretch& s) { return s.begin < -margin && s.end > margin; });
-    if (!holds) return false;
+    if (!(solid.closed ? odd_ahead(stretches, margin) : within_one(stretches, margin))) return false;
   }
   return true;
 }

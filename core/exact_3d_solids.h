@@ -24,6 +24,7 @@ struct Solid {
   ObjectId id;
   SolidKind kind;
   bool occluder;
+  bool closed = false;  ///< faces: they close, and have an interior
   Vec3 position;
   Rotation rotation;
   double reach;   ///< ball about position that holds it

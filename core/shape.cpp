@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/mesh.h"
 #include "gridcull/core/world_points.h"
 
 namespace gridcull {
@@ -87,11 +88,13 @@ int dimension_of(const Shape& shape) { return shape.index() < 4 ? 2 : 3; }
 std::string_view name_of(const Shape& shape) {
   constexpr std::array<std::string_view, 9> names{"disc", "box",   "polygon", "polyline", "sphere",
                                                   "box",  "prism", "convex",  "faces"};
-  return names[shape.index()];
+  const auto* faces = std::get_if<Faces>(&shape);
+  return faces != nullptr && faces->closed ? "mesh" : names[shape.index()];
 }
 
 bool is_thin(const Shape& shape) {
-  return std::holds_alternative<Polyline>(shape) || std::holds_alternative<Faces>(shape);
+  const auto* faces = std::get_if<Faces>(&shape);
+  return std::holds_alternative<Polyline>(shape) || (faces != nullptr && !faces->closed);
 }
 
 double reach_of(const Shape& shape) {
@@ -145,6 +148,11 @@ void validate(const Shape& shape) {
                                                std::to_string(s.vertices.size()));
                             }
                           }
+                        }
+                        if (!s.closed) return;
+                        const MeshHoles holes = find_holes(s);
+                        if (holes.open_edges > 0) {
+                          refuse(name, "expected no hole, found " + std::to_string(holes.open_edges) + " open edges");
                         }
                       }},
              shape);

@@ -49,10 +49,12 @@ struct Prism {
 struct Convex {
   std::vector<Vec3> vertices;
 };
-/// Triangles without thickness: no interior, but crossing one blocks.
+/// Triangles: crossing one blocks. As they are they have no thickness and no interior. When `closed` they are a mesh
+/// without a hole (core/mesh.h): what is within it by the even-odd rule is its interior, and who is there sees past it.
 struct Faces {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  bool closed = false;
 };
 
 using Shape = std::variant<Disc, Rectangle, Polygon, Polyline, Sphere, Cuboid, Prism, Convex, Faces>;
@@ -60,10 +62,10 @@ using Shape = std::variant<Disc, Rectangle, Polygon, Polyline, Sphere, Cuboid, P
 /// 2 or 3.
 int dimension_of(const Shape& shape);
 
-/// The name FORMATS gives it: "disc", "box", "polygon", ...
+/// The name FORMATS gives it: "disc", "box", "polygon", ...; "mesh" for closed faces.
 std::string_view name_of(const Shape& shape);
 
-/// Whether it is a thin shape (`Polyline`, `Faces`): blocks on crossing, holds no cell.
+/// Whether it is a thin shape (`Polyline`, `Faces` that are not closed): blocks on crossing, holds no cell.
 bool is_thin(const Shape& shape);
 
 /// Greatest distance of a point of the shape from its origin: at any orientation the object stays

@@ -7,6 +7,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/core/hull.h"
+#include "gridcull/core/mesh.h"
 #include "gridcull/core/trigonometry.h"
 #include "gridcull/core/world_points.h"
 
@@ -193,7 +194,8 @@ bool interior_holds(const Shape& shape, const Pose& pose, const Vec3& point) {
     return local.z > 0.0 && local.z < prism->height && outline_holds(points, Vec2(local));
   }
   if (const auto* convex = std::get_if<Convex>(&shape)) return hull_holds(convex->vertices, local);
-  return false;
+  const auto* mesh = std::get_if<Faces>(&shape);
+  return mesh != nullptr && mesh->closed && side_of_mesh(mesh->vertices, mesh->triangles, local) == MeshSide::inside;
 }
 
 }  // namespace gridcull

@@ -119,12 +119,15 @@ struct SmallerDimension {
     const Vec2 size = extent_of(s.vertices);
     return std::min({size.x, size.y, s.height});
   }
-  double operator()(const Convex& s) const {
+  double operator()(const Convex& s) const { return least_side(s.vertices); }
+  double operator()(const Faces& s) const { return s.closed ? least_side(s.vertices) : 0.0; }
+
+ private:
+  static double least_side(const std::vector<Vec3>& vertices) {
     Bounds box;
-    for (const Vec3& p : s.vertices) box.add(p);
+    for (const Vec3& p : vertices) box.add(p);
     return std::min({box.size().x, box.size().y, box.size().z});
   }
-  double operator()(const Faces&) const { return 0.0; }
 };
 
 }  // namespace

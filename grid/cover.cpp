@@ -91,6 +91,7 @@ void merge_bricks(std::vector<BrickCover>& bricks) {
   for (std::size_t i = 0; i < bricks.size(); ++i) {
     if (kept > 0 && bricks[kept - 1].brick == bricks[i].brick) {
       bricks[kept - 1].touched |= bricks[i].touched;
+      bricks[kept - 1].opaque |= bricks[i].opaque;
     } else {
       bricks[kept++] = bricks[i];
     }
@@ -232,6 +233,9 @@ void PreparedShape::Detail::cover(const Faces& s, const Lattice& lattice, const 
     convex(lattice, body, margin, out);
   }
   if (s.triangles.size() > 1) merge_bricks(out.bricks);
+  if (!s.closed) return;
+  fill_mesh(lattice, scratch.vertices, s.triangles, scratch, out);
+  merge_bricks(out.bricks);
 }
 
 PreparedShape::PreparedShape(const Shape& shape) {

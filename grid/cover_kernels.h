@@ -41,6 +41,11 @@ inline bool is_upright(const Rotation& r) { return r.x.z == 0.0 && r.y.z == 0.0 
 void prism(const Lattice& lattice, std::span<const Vec2> local, double height, const Pose& pose, CoverScratch& scratch,
            Cover& out);
 
+/// Appends the cells inside a closed mesh (world vertices), as touched and opaque, in no order. `out` holds what its
+/// triangles touch, bricks ascending.
+void fill_mesh(const Lattice& lattice, const std::vector<Vec3>& vertices,
+               std::span<const std::array<std::uint32_t, 3>> triangles, CoverScratch& scratch, Cover& out);
+
 /// Greatest |coordinate| of a box; 0 when empty.
 double magnitude_of(const Bounds& bounds);
 

@@ -1,6 +1,7 @@
 // Working memory of discretisation: one per thread, so that a steady state allocates nothing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -49,6 +50,12 @@ struct ConvexBody {
   }
 };
 
+/// A triangle of a closed mesh that may meet the middle line of a row of cells along x.
+struct MeshRow {
+  std::int64_t row;  ///< z * cells().y + y
+  std::uint32_t triangle;
+};
+
 /// Only grid/cover*.cpp look inside; contents mean nothing between two covers.
 struct CoverScratch {
   std::vector<Vec2> outline;             ///< world outline
@@ -58,7 +65,9 @@ struct CoverScratch {
   std::vector<std::uint32_t> active;     ///< edges that meet the current row of bricks
   std::vector<std::uint64_t> boundary;   ///< words of one row of bricks: cells that the outline touches
   std::vector<std::uint64_t> crossings;  ///< words of one row of bricks: changes of parity
-  std::vector<BrickCover> tiles;         ///< planar bricks of a prism's outline
+  std::vector<BrickCover> tiles;         ///< planar bricks of a prism's outline; cells inside a mesh
+  std::vector<MeshRow> mesh_rows;
+  std::vector<std::array<std::uint32_t, 3>> row_triangles;  ///< of the row in hand
   ConvexBody body;
 };
 

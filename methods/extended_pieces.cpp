@@ -229,6 +229,17 @@ void add_faces(const Faces& faces, const std::vector<Vec3>& world, double blur, 
   }
 }
 
+/// A box in local axes that holds a mesh.
+Piece box_about(const Faces& mesh, const Pose& pose, const Rotation& r) {
+  Bounds box;
+  for (const Vec3& p : mesh.vertices) box.add(p);
+  Pose base = pose;
+  base.position = to_world(pose, r, {0.0, 0.0, box.min.z});
+  const Vec2 low(box.min), high(box.max);
+  const double height = std::max(box.size().z, std::numeric_limits<double>::min());
+  return prism_piece({low, {high.x, low.y}, high, {low.x, high.y}}, height, base, r);
+}
+
 void set_width(Piece& piece) {
   for (const Vec3& normal : piece.normals) {
     const double length = glm::length(normal);
@@ -276,6 +287,7 @@ Occluder make_occluder(const Object& object) {
     for (Vec3& normal : out.pieces.back().normals) normal = r * normal;
   } else if (const auto* faces = std::get_if<Faces>(&object.shape)) {
     add_faces(*faces, world, 0.25 * out.blur, out.pieces);
+    if (faces->closed) out.covers.push_back(box_about(*faces, object.pose, r));
   }
   for (Piece& piece : out.pieces) {
     set_width(piece);

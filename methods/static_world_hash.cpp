@@ -37,7 +37,10 @@ struct WorldHash {
   void add(const Cuboid& s) { add(s.size); }
   void add(const Prism& s) { add(s.vertices), add(s.height); }
   void add(const Convex& s) { add(s.vertices); }
-  void add(const Faces& s) { add(s.vertices), add(s.triangles); }
+  void add(const Faces& s) {
+    add(s.vertices), add(s.triangles);
+    if (s.closed) hash.add(1u);
+  }
 
   void add(const Object& object) {
     hash.add(object.id);

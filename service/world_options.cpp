@@ -125,7 +125,7 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
 
 PreparedWorld prepare_world(const WorldOptions& options, bool always_survey) {
   check_options(options);
-  return prepare_scene(options, read_scene(options.scene), always_survey);
+  return prepare_scene(options, read_scene(options.scene, options.max_memory), always_survey);
 }
 
 PreparedWorld prepare_scene(const WorldOptions& options, Scene scene, bool always_survey) {

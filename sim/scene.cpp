@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gridcull/sim/json_text.h"
+#include "gridcull/sim/mesh_shelf.h"
 #include "gridcull/sim/scene_json.h"
 #include "gridcull/sim/text_file.h"
 
@@ -21,11 +22,11 @@ Bounds read_bounds(const JsonRef& json, int dimension) {
   return out;
 }
 
-void read_objects(const JsonRef& json, Scene& scene) {
+void read_objects(const JsonRef& json, MeshShelf* meshes, Scene& scene) {
   const std::vector<JsonRef> list = json.items();
   std::vector<std::uint32_t> ids;
   for (const JsonRef& item : list) {
-    scene.objects.push_back(read_object(item, scene.dimension));
+    scene.objects.push_back(read_object(item, scene.dimension, meshes));
     ids.push_back(scene.objects.back().object.id);
   }
   refuse_repeated(list, ids);
@@ -52,12 +53,12 @@ void read_viewers(const JsonRef& json, Scene& scene) {
 
 }  // namespace
 
-Scene parse_scene(std::string_view text, const std::string& source_name) {
+Scene parse_scene(std::string_view text, const std::string& source_name, MeshShelf* meshes) {
   const JsonTree tree(text, source_name, ErrorCode::bad_scene);
-  return read_scene(tree.root());
+  return read_scene(tree.root(), meshes);
 }
 
-Scene read_scene(const JsonRef& root) {
+Scene read_scene(const JsonRef& root, MeshShelf* meshes) {
   // The format first: an unknown key of a later version is then explained by its version.
   root.at("format").expect_format(format);
   root.only_keys({"format", "dimension", "bounds", "grid", "objects", "viewers"});
@@ -70,13 +71,14 @@ Scene read_scene(const JsonRef& root) {
     grid->only_keys({"cell"});
     scene.cell = grid->at("cell").positive();
   }
-  read_objects(root.at("objects"), scene);
+  read_objects(root.at("objects"), meshes, scene);
   read_viewers(root.at("viewers"), scene);
   return scene;
 }
 
-Scene read_scene(const std::string& path) {
-  return parse_scene(read_text(path), path == "-" ? "standard input" : path);
+Scene read_scene(const std::string& path, std::uint64_t max_mesh_memory) {
+  MeshShelf meshes(path, max_mesh_memory);
+  return parse_scene(read_text(path), path == "-" ? "standard input" : path, &meshes);
 }
 
 std::string scene_text(const Scene& scene) {

@@ -17,11 +17,20 @@
 
 namespace gridcull {
 
+class MeshShelf;
+
+/// The file that a shape came from, and the group in it; "" for all of it.
+struct MeshSource {
+  std::string file{};  ///< relative to the scene file
+  std::string group{};
+};
+
 /// An object as a scene or frames file gives it.
 struct SceneObject {
   Object object{};
-  std::string name{};               ///< "" when the file gives none
-  std::optional<double> heading{};  ///< radians, as given; object.pose.orientation is turn_about_z() of it
+  std::string name{};                ///< "" when the file gives none
+  std::optional<double> heading{};   ///< radians, as given; object.pose.orientation is turn_about_z() of it
+  std::optional<MeshSource> mesh{};  ///< where the shape, Faces, came from
 };
 
 /// A viewer as a scene gives it.
@@ -48,12 +57,13 @@ struct Scene {
   std::vector<SceneViewer> viewers{};
 };
 
-/// Reads a scene file ("-" is standard input, .gz is unpacked). Throws Error(io), Error(bad_message) for
-/// text that is not JSON and Error(bad_scene) for everything else.
-Scene read_scene(const std::string& path);
+/// Reads a scene file ("-" is standard input, .gz is unpacked) and the meshes that it names (sim/mesh_shelf.h), which
+/// may take `max_mesh_memory` bytes. Throws Error(io), Error(bad_message) for text that is not JSON, Error(limit) for
+/// meshes that are too big and Error(bad_scene) for everything else.
+Scene read_scene(const std::string& path, std::uint64_t max_mesh_memory = std::uint64_t{4} << 30);
 
-/// The same from text; `source_name` stands at the front of refusals.
-Scene parse_scene(std::string_view text, const std::string& source_name);
+/// The same from text; `source_name` stands at the front of refusals. Meshes are refused unless there is a shelf.
+Scene parse_scene(std::string_view text, const std::string& source_name, MeshShelf* meshes = nullptr);
 
 /// Writes a scene so that reading it gives the same bits. "-" is standard output; .gz packs; the file
 /// appears whole or not at all. Throws Error(io).

@@ -146,13 +146,13 @@ void refuse_repeated(const std::vector<JsonRef>& list, const std::vector<std::ui
     list[*(at + 1)].refuse_with("expected each id once, found " + std::to_string(ids[*at]) + " twice");
 }
 
-SceneObject read_object(const JsonRef& json, int dimension) {
+SceneObject read_object(const JsonRef& json, int dimension, MeshShelf* meshes) {
   json.only_keys({"id", "name", "static", "shape", "position", "heading", "orientation", "max_speed", "occluder"});
   SceneObject out;
   out.object.id = json.at("id").id();
   if (const auto name = json.find("name")) out.name = name->string();
   if (const auto is_static = json.find("static")) out.object.is_static = is_static->boolean();
-  out.object.shape = read_shape(json.at("shape"), dimension);
+  out.object.shape = read_shape(json.at("shape"), dimension, meshes, &out.mesh);
   out.object.pose.position = json.at("position").point(dimension);
   const Direction direction = read_direction(json, dimension);
   if (direction.orientation) out.object.pose.orientation = *direction.orientation;
@@ -207,7 +207,11 @@ void append_object(std::string& out, const SceneObject& object, int dimension) {
   }
   if (o.is_static) out += ", \"static\": true";
   append_key(out, "shape");
-  append_shape(out, o.shape);
+  if (object.mesh) {
+    append_mesh(out, *object.mesh);
+  } else {
+    append_shape(out, o.shape);
+  }
   append_place(out, "position", o.pose.position, dimension);
   const Quat& q = o.pose.orientation;
   const bool turned = object.heading || q.w != 1.0 || q.x != 0.0 || q.y != 0.0 || q.z != 0.0;

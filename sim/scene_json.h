@@ -10,7 +10,8 @@
 
 namespace gridcull {
 
-Scene read_scene(const JsonRef& json);
+/// `meshes`: as for read_shape().
+Scene read_scene(const JsonRef& json, MeshShelf* meshes = nullptr);
 /// A frame's parts and time; other keys are the caller's to refuse. `where` is left empty.
 Frame read_frame(const JsonRef& json, int dimension);
 
@@ -18,7 +19,7 @@ Frame read_frame(const JsonRef& json, int dimension);
 /// Error(bad_scene).
 Quat settled(Quat q);
 
-SceneObject read_object(const JsonRef& json, int dimension);
+SceneObject read_object(const JsonRef& json, int dimension, MeshShelf* meshes = nullptr);
 ObjectMove read_move(const JsonRef& json, int dimension);
 ViewerUpdate read_viewer(const JsonRef& json, int dimension);
 

@@ -36,7 +36,25 @@ Faces read_faces(const JsonRef& json) {
     }
     out.triangles.push_back({corners[0].id(), corners[1].id(), corners[2].id()});
   }
+  if (const auto closed = json.find("closed")) out.closed = closed->boolean();
   return out;
+}
+
+/// A path that leads out of the scene's folder is as good as any: the file is only read.
+Shape read_mesh_shape(const JsonRef& json, MeshShelf* meshes, std::optional<MeshSource>* source) {
+  json.only_keys({"type", "file", "group"});
+  if (meshes == nullptr) {
+    json.at("type").refuse_with("\"mesh\" shapes stand in scene files only; give the triangles as \"faces\"");
+  }
+  MeshSource from{std::string(json.at("file").string()), {}};
+  if (const auto group = json.find("group")) from.group = group->string();
+  try {
+    MeshGroup mesh = meshes->take(from.file, from.group);
+    if (source != nullptr) *source = std::move(from);
+    return std::move(mesh.faces);
+  } catch (const Error& fault) {
+    json.at("file").refuse_with(fault.code(), fault.what());
+  }
 }
 
 Shape read_2d(const JsonRef& json, std::string_view type) {
@@ -75,13 +93,10 @@ Shape read_3d(const JsonRef& json, std::string_view type) {
     return Convex{read_points_3d(json.at("vertices"))};
   }
   if (type == "faces") {
-    json.only_keys({"type", "vertices", "triangles"});
+    json.only_keys({"type", "vertices", "triangles", "closed"});
     return read_faces(json);
   }
-  if (type == "mesh") {
-    json.at("type").refuse_with("this version reads no \"mesh\" shapes; give the triangles as \"faces\"");
-  }
-  json.at("type").refuse("a 3D shape: sphere, box, prism, convex or faces");
+  json.at("type").refuse("a 3D shape: sphere, box, prism, convex, faces or mesh");
 }
 
 void append_points(std::string& out, const std::vector<Vec2>& points) {
@@ -142,14 +157,19 @@ struct Members {
       out += ']';
     }
     out += ']';
+    if (!s.closed) return;
+    append_key(out, "closed");
+    out += "true";
   }
 };
 
 }  // namespace
 
-Shape read_shape(const JsonRef& json, int dimension) {
+Shape read_shape(const JsonRef& json, int dimension, MeshShelf* meshes, std::optional<MeshSource>* source) {
   const std::string_view type = json.at("type").string();
-  Shape shape = dimension == 2 ? read_2d(json, type) : read_3d(json, type);
+  Shape shape = dimension == 2   ? read_2d(json, type)
+                : type == "mesh" ? read_mesh_shape(json, meshes, source)
+                                 : read_3d(json, type);
   try {
     validate(shape);
   } catch (const Error& fault) {
@@ -161,8 +181,21 @@ Shape read_shape(const JsonRef& json, int dimension) {
 void append_shape(std::string& out, const Shape& shape) {
   out += '{';
   append_key(out, "type");
-  append_string(out, name_of(shape));
+  append_string(out, std::holds_alternative<Faces>(shape) ? "faces" : name_of(shape));
   std::visit(Members{out}, shape);
+  out += '}';
+}
+
+void append_mesh(std::string& out, const MeshSource& source) {
+  out += '{';
+  append_key(out, "type");
+  append_string(out, "mesh");
+  append_key(out, "file");
+  append_string(out, source.file);
+  if (!source.group.empty()) {
+    append_key(out, "group");
+    append_string(out, source.group);
+  }
   out += '}';
 }
 

@@ -1,15 +1,21 @@
 // Shapes as JSON (FORMATS, "Scene").
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "gridcull/core/shape.h"
 #include "gridcull/sim/json_tree.h"
+#include "gridcull/sim/mesh_shelf.h"
+#include "gridcull/sim/scene.h"
 
 namespace gridcull {
 
-/// A valid shape of this dimension.
-Shape read_shape(const JsonRef& json, int dimension);
+/// A valid shape of this dimension. `meshes` gives the files that shapes of type "mesh" name; without it they are
+/// refused. Where a shape came from a file, `source` says so.
+Shape read_shape(const JsonRef& json, int dimension, MeshShelf* meshes = nullptr,
+                 std::optional<MeshSource>* source = nullptr);
 void append_shape(std::string& out, const Shape& shape);
+void append_mesh(std::string& out, const MeshSource& source);
 
 }  // namespace gridcull

@@ -209,6 +209,21 @@ inline Verdict prism(const std::vector<Vec2>& outline, double height, const Pose
   return {v.touches, v.inside && between};
 }
 
+// --- meshes ----------------------------------------------------------------------------------------------
+
+/// Odd by the sum of signed solid angles (A. van Oosterom and J. Strackee, 1983), for meshes whose triangles turn the
+/// same way about each shell: no ray that could meet an edge.
+inline bool winds(const std::vector<std::vector<Vec3>>& triangles, const Vec3& point) {
+  double sum = 0.0;
+  for (const auto& t : triangles) {
+    const Vec3 a = t[0] - point, b = t[1] - point, c = t[2] - point;
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    sum += std::atan2(glm::dot(a, glm::cross(b, c)),
+                      la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+  }
+  return std::lround(std::fabs(sum) / 6.283185307179586) % 2 != 0;  // the sum is half the solid angle
+}
+
 // --- any shape -------------------------------------------------------------------------------------------
 
 /// A shape in its place, with what judging many cells needs.
@@ -236,11 +251,12 @@ class Truth {
       return planar(outline_, closed, planar_sides(b), Vec2(b.centre()));
     }
     if (const auto* s = std::get_if<gridcull::Prism>(&shape_)) return prism(outline_, s->height, pose_, b);
-    if (std::holds_alternative<gridcull::Faces>(shape_)) {
+    if (const auto* mesh = std::get_if<gridcull::Faces>(&shape_)) {
       for (const auto& f : faces_) {
         if (meets(f, sides_of(b))) return {true, false};
       }
-      return {false, false};
+      const bool in = mesh->closed && winds(faces_, b.centre());
+      return {in, in};
     }
     return convex(sides_, faces_, b);
   }

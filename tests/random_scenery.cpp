@@ -1,9 +1,11 @@
 #include "random_scenery.h"
 
 #include <numbers>
+#include <random>
 
 #include "gridcull/core/error.h"
 #include "gridcull/core/trigonometry.h"
+#include "random_meshes.h"
 
 namespace gridcull::test {
 namespace {
@@ -174,6 +176,10 @@ Shape Scenery::convex() {
 Shape Scenery::faces() {
   const double s = size();
   const Vec3 h = 0.5 * Vec3{s, chance(0.5) ? s : size(), chance(0.5) ? s : size()};
+  if (chance(0.4)) {
+    std::mt19937_64 dice(random_.below(1u << 30));
+    return random_mesh(dice, 0.5 * s);
+  }
   if (chance(0.4)) {  // a wall of two triangles across the local x axis
     return Faces{{{0, -h.y, -h.z}, {0, h.y, -h.z}, {0, h.y, h.z}, {0, -h.y, h.z}}, {{0, 1, 2}, {0, 2, 3}}};
   }

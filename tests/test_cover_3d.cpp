@@ -1,6 +1,7 @@
 // 3D discretisation against a brute-force classifier (cover_truth.h).
 #include "cover_check.h"
 #include "gridcull/core/error.h"
+#include "random_meshes.h"
 
 using namespace gridcull;
 using cover_check::compare;
@@ -137,4 +138,14 @@ TEST_CASE("covers of faces are exact and never opaque") {
   const Totals t = run(
       40001, 500, [](Random& r) { return Shape(random_faces(r)); }, always);
   CHECK(t.touched > 2500);
+}
+
+TEST_CASE("covers of closed meshes are exact") {
+  const auto make = [](Random& r) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(r.below(1 << 30)));
+    return Shape(test::random_mesh(random, random_size(r)));
+  };
+  const Totals t = run(50001, 400, make, always);
+  CHECK(t.touched > 2500);
+  CHECK(t.opaque > 500);
 }

@@ -134,7 +134,7 @@ TEST_CASE("bad 3D scenes are refused by pointer") {
            "/objects/0/orientation: expected either \"heading\" or \"orientation\""},
           {"\"sphere\"", "\"disc\"", "/objects/0/shape/type: expected a 3D shape"},
           {"\"type\": \"sphere\", \"radius\": 1", "\"type\": \"mesh\", \"file\": \"a.obj\"",
-           "/objects/0/shape/type: this version reads no \"mesh\" shapes"},
+           "/objects/0/shape/type: \"mesh\" shapes stand in scene files only"},
           {"[1, 2, 3]", "[1, 2, -3]", "/objects/1/shape/size/2: expected a number above 0"},
           {"\"height\": 4", "\"height\": 0", "/objects/2/shape/height: expected a number above 0"},
           {"[[0,0],[1,0],[0,1]]", "[[0,0],[1,0]]", "/objects/2/shape: prism: expected at least three distinct points"},

@@ -1,0 +1,34 @@
+#include "gridcull/sim/mesh_shelf.h"
+
+#include <filesystem>
+
+#include "gridcull/core/error.h"
+
+namespace gridcull {
+
+MeshShelf::MeshShelf(const std::string& scene_path, std::uint64_t max_memory)
+    : folder_(scene_path == "-" ? "" : std::filesystem::path(scene_path).parent_path().string()),
+      max_memory_(max_memory) {}
+
+MeshGroup MeshShelf::take(const std::string& file, const std::string& group) {
+  const auto [place, is_new] = files_.try_emplace(file);
+  if (is_new) {
+    try {
+      place->second = read_mesh((std::filesystem::path(folder_) / file).string(), max_memory_);
+    } catch (...) {
+      files_.erase(place);
+      throw;
+    }
+  }
+  const std::vector<MeshGroup>& groups = place->second;
+  if (group.empty()) return groups.size() == 1 ? groups.front() : joined(groups);
+  for (const MeshGroup& one : groups) {
+    if (one.name == group) return one;
+  }
+  std::string names;
+  for (std::size_t i = 0; i < groups.size() && i < 8; ++i) names += (i > 0 ? ", '" : "'") + groups[i].name + "'";
+  throw Error(ErrorCode::bad_scene, file + ": expected one of its groups (" + names +
+                                        (groups.size() > 8 ? ", ..." : "") + "), found '" + group + "'");
+}
+
+}  // namespace gridcull
