@@ -23,7 +23,7 @@ namespace {
 class Inquiry {
  public:
   Inquiry(std::span<const Object> world, const Lattice& lattice, const View& view, ObjectId object, int rays)
-      : world_(world), lattice_(lattice), view_(view), rays_(rays), target_(find(object)) {}
+      : lattice_(lattice), view_(view), rays_(rays), target_(find(world, object)), between_(those_between(world)) {}
 
   Explanation answer() {
     Explanation out;
@@ -34,7 +34,7 @@ class Inquiry {
       return out;
     }
     if (!witness({})) return out;
-    if (const auto ray = witness_in(world_)) {
+    if (const auto ray = witness_in(between_)) {
       out.verdict = Explanation::Verdict::visible;
       out.sees = view_.pose.position + *ray * entry(target_, *ray).value_or(distance());
       return out;
@@ -45,10 +45,26 @@ class Inquiry {
   }
 
  private:
-  const Object& find(ObjectId id) const {
-    const auto found = std::find_if(world_.begin(), world_.end(), [id](const Object& o) { return o.id == id; });
-    if (found != world_.end()) return *found;
+  static const Object& find(std::span<const Object> world, ObjectId id) {
+    const auto found = std::find_if(world.begin(), world.end(), [id](const Object& o) { return o.id == id; });
+    if (found != world.end()) return *found;
     throw Error(ErrorCode::unknown_object, "object " + std::to_string(id) + " is not there");
+  }
+
+  /// All that a line from the viewpoint to the target can meet: such lines lie within the target's reach of the line to
+  /// its middle.
+  std::vector<Object> those_between(std::span<const Object> world) const {
+    const Vec3 along = target_.pose.position - view_.pose.position;
+    const double square = glm::dot(along, along);
+    std::vector<Object> out;
+    for (const Object& object : world) {
+      const Vec3 to = object.pose.position - view_.pose.position;
+      const double t = square > 0.0 ? std::clamp(glm::dot(to, along) / square, 0.0, 1.0) : 0.0;
+      const double slack = 1e-9 * (1.0 + glm::length(to) + glm::length(along));
+      if (glm::length(to - t * along) <= reach_of(target_.shape) + reach_of(object.shape) + slack)
+        out.push_back(object);
+    }
+    return out;
   }
 
   double distance() const { return glm::length(target_.pose.position - view_.pose.position); }
@@ -89,12 +105,22 @@ class Inquiry {
            !interior_holds(object.shape, object.pose, view_.pose.position);
   }
 
+  /// Whether the ray comes near enough to meet the object at all.
+  bool passes_near(const Object& object, const Vec3& ray) const {
+    const Vec3 to = object.pose.position - view_.pose.position;
+    const double reach = reach_of(object.shape) + 1e-9 * (1.0 + glm::length(to));
+    const double along = std::max(0.0, glm::dot(to, ray));
+    const Vec3 off = to - along * ray;
+    return glm::dot(off, off) <= reach * reach;
+  }
+
   const Object* nearest_blocker(const Vec3& ray, const std::vector<const Object*>& known) const {
     const double until = entry(target_, ray).value_or(std::numeric_limits<double>::infinity());
     const Object* nearest = nullptr;
     double least = until;
-    for (const Object& object : world_) {
-      if (!may_hide(object) || std::find(known.begin(), known.end(), &object) != known.end()) continue;
+    for (const Object& object : between_) {
+      if (!passes_near(object, ray) || !may_hide(object)) continue;
+      if (std::find(known.begin(), known.end(), &object) != known.end()) continue;
       const auto at = entry(object, ray);
       if (at && *at < least) least = *at, nearest = &object;
     }
@@ -129,18 +155,18 @@ class Inquiry {
     PreparedShape(target_.shape).cover(lattice_, target_.pose, scratch, cover);
     std::vector<Cell> out;
     for (const BrickCover& brick : cover.bricks) {
-      for (int bit = 0; bit < 64; ++bit) {
+      for (int bit = 0; bit < 64 && out.size() < Explanation::most_cells; ++bit) {
         if ((brick.touched >> bit & 1u) != 0) out.push_back(lattice_.cell_at(brick.brick, bit));
       }
     }
     return out;
   }
 
-  std::span<const Object> world_;
   const Lattice& lattice_;
   const View& view_;
   int rays_;
   const Object& target_;
+  std::vector<Object> between_;
 };
 
 nlohmann::ordered_json coordinates(const Vec3& p, int dimension) {

@@ -23,7 +23,8 @@ struct Explanation {
   };
   Verdict verdict = Verdict::outside;
   std::vector<ObjectId> by{};  ///< hidden: occluders that together cover it, ascending; none can be spared in 2D
-  std::vector<Cell> cells{};   ///< of the grid, that the object may touch
+  std::vector<Cell> cells{};   ///< of the grid, that the object may touch; at most `most_cells`
+  static constexpr std::size_t most_cells = 100'000;
   std::optional<Vec3> sees{};  ///< visible: its first point on a line of sight, world axes, metres
 };
 

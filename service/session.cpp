@@ -4,9 +4,12 @@
 #include <iterator>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "gridcull/core/error.h"
 #include "gridcull/core/exact.h"
 #include "gridcull/grid/engine.h"
+#include "gridcull/service/text.h"
 
 namespace gridcull {
 namespace {
@@ -40,10 +43,26 @@ Session::Session(OpenRequest open, const Limits& limits, const std::string& reco
       world_(prepare(open, limits)),
       culler_(make_culler(options_, world_)),
       replay_(std::make_unique<Replay>(*culler_, world_.scene, &source_)) {
-  if (!record.empty()) record_ = std::make_unique<SessionRecord>(record, with_grid(world_.scene, world_.choice));
+  if (!record.empty()) {
+    record_ = std::make_unique<SessionRecord>(record, with_grid(world_.scene, world_.choice), about());
+  }
   // The world has them now.
   world_.scene.objects = {};
   world_.scene.viewers = {};
+}
+
+/// What `gridcull run` has to be told besides the record's files to give the same answers.
+std::string Session::about() const {
+  std::vector<std::string> options{"--method", options_.method, "--tbv", options_.tbv};
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) options.insert(options.end(), {name, value});
+  };
+  add("--resolution", options_.resolution);
+  add("--bounds", options_.bounds);
+  add("--occluders", options_.occluders != WorldOptions{}.occluders ? std::to_string(options_.occluders) : "");
+  add("--view-box", options_.view_box != WorldOptions{}.view_box ? number_text(options_.view_box, 17) : "");
+  const nlohmann::ordered_json json{{"name", name_}, {"run", options}};
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 void Session::check_count(const Frame& frame) const {
@@ -51,12 +70,13 @@ void Session::check_count(const Frame& frame) const {
   if (now > frame.remove.size()) refuse_many(now - frame.remove.size(), limits_.objects);
 }
 
-void Session::begin_drawing() {
+/// Whether the frame in hand is drawn.
+bool Session::begin_drawing() {
   auto* engine = drawing_ == no_id ? nullptr : dynamic_cast<GridEngine*>(culler_.get());
-  has_drawn_ = engine != nullptr;
-  if (engine == nullptr) return;
-  drawn_.begin(drawing_);
-  engine->draw_next(drawing_, &drawn_);
+  if (engine == nullptr) return false;
+  drawing_now_.begin(drawing_);
+  engine->draw_next(drawing_, &drawing_now_);
+  return true;
 }
 
 const FrameReply& Session::apply(FrameRequest request) {
@@ -66,13 +86,14 @@ const FrameReply& Session::apply(FrameRequest request) {
     reply_.bulk = request.bulk;
     return reply_;
   }
+  if (broken_) throw Error(ErrorCode::internal, "message: the session failed");
   if (request.seq != seq_ + 1) {
     throw Error(ErrorCode::sequence,
                 "message: /seq: expected " + std::to_string(seq_ + 1) + ", found " + std::to_string(request.seq));
   }
   check_count(request.frame);
   source_.frame = std::move(request.frame);
-  begin_drawing();
+  const bool draws = begin_drawing();
   const std::optional<double> before = world().time();
   try {
     replay_->step();
@@ -83,14 +104,24 @@ const FrameReply& Session::apply(FrameRequest request) {
     throw;
   }
   seq_ = request.seq;
+  has_drawn_ = draws;
+  if (draws) std::swap(drawn_, drawing_now_);
   for (const Answer& answer : answers().views) hash_.add(answer);
-  forget(last_frame().drop_viewers);
+  drop(last_frame().drop_viewers);
   make_reply(request);
   return reply_;
 }
 
-void Session::forget(const std::vector<ViewerId>& viewers) {
-  for (const ViewerId viewer : viewers) told_.erase(viewer);
+void Session::drop(const std::vector<ViewerId>& viewers) {
+  for (const ViewerId viewer : viewers) {
+    if (told_.erase(viewer) > 0) unsure_.insert(viewer);
+  }
+}
+
+void Session::resume() {
+  fresh_ = true;
+  for (const auto& [viewer, told] : told_) unsure_.insert(viewer);
+  told_.clear();
 }
 
 void Session::make_reply(const FrameRequest& request) {
@@ -104,9 +135,10 @@ void Session::make_reply(const FrameRequest& request) {
   for (const Answer& answer : answers().views) {
     ViewerReply& reply = reply_.answers.emplace_back();
     reply.viewer = answer.viewer;
-    reply.full = full;
+    reply.full = full || unsure_.contains(answer.viewer);
+    unsure_.erase(answer.viewer);
     std::vector<ObjectId>& told = told_[answer.viewer];
-    if (full) {
+    if (reply.full) {
       reply.visible = answer.visible;
     } else {
       std::set_difference(answer.visible.begin(), answer.visible.end(), told.begin(), told.end(),

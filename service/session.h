@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,12 +70,12 @@ class Session {
   /// Error(sequence), Error(bad_frame), Error(unknown_object), Error(limit). After any other exception the session
   /// is broken().
   const FrameReply& apply(FrameRequest request);
-  /// The last applied frame.
+  /// The last applied frame; after a refusal, the refused one.
   const Frame& last_frame() const { return replay_->last_frame(); }
   bool broken() const { return broken_; }
 
-  /// A client that may have missed answers is there again: the next answer is full.
-  void resume() { fresh_ = true; }
+  /// A client that may have missed answers is there again: every viewer's next answer is full.
+  void resume();
 
   /// From the next frame on this viewer's cells and volumes are kept for drawing; no_id: nobody's. Only the grid engine
   /// draws.
@@ -97,10 +98,11 @@ class Session {
     }
   };
 
-  void begin_drawing();
+  bool begin_drawing();
+  std::string about() const;
   void check_count(const Frame& frame) const;
   void make_reply(const FrameRequest& request);
-  void forget(const std::vector<ViewerId>& viewers);
+  void drop(const std::vector<ViewerId>& viewers);
 
   std::string name_;
   WorldOptions options_;
@@ -114,10 +116,13 @@ class Session {
   bool fresh_ = true;  // the next answer is full
   bool broken_ = false;
   std::map<ViewerId, std::vector<ObjectId>> told_;  // what each viewer's last answer amounts to
+  // What they were told before their viewer was dropped, or the connection lost, is not known on both sides: their next
+  // answer is full.
+  std::set<ViewerId> unsure_;
   FrameReply reply_;
   StableHash hash_;
   ViewerId drawing_ = no_id;
-  DrawnView drawn_;
+  DrawnView drawn_, drawing_now_;  // of the last frame; of the one in hand
   bool has_drawn_ = false;
 };
 

@@ -9,15 +9,17 @@
 #include <unistd.h>
 
 #include "gridcull/core/error.h"
+#include "gridcull/sim/text_file.h"
 
 namespace gridcull {
 
-SessionRecord::SessionRecord(const std::string& folder, const Scene& scene)
+SessionRecord::SessionRecord(const std::string& folder, const Scene& scene, const std::string& about)
     : path_(folder + "/frames.jsonl"), dimension_(scene.dimension) {
   std::error_code fault;
   std::filesystem::create_directories(folder, fault);
   if (fault) throw Error(ErrorCode::io, folder + ": the folder cannot be made: " + fault.message());
   write_scene(folder + "/scene.json", scene);
+  write_text(folder + "/session.json", about);
   file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
   if (file_ < 0) throw Error(ErrorCode::io, path_ + ": cannot be written: " + std::strerror(errno));
   write_line("{\"format\": \"gridcull.frames/1\"}");

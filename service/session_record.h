@@ -1,4 +1,5 @@
-// A session on disk, in the public formats: DIR/scene.json and DIR/frames.jsonl, which `gridcull run` replays.
+// A session on disk, in the public formats: DIR/scene.json and DIR/frames.jsonl, which `gridcull run`
+// replays, and DIR/session.json: the session's name and the options that `run` then needs.
 #pragma once
 
 #include <string>
@@ -12,8 +13,8 @@ namespace gridcull {
 /// dies within add(), the last line may be cut; it was not acknowledged then.)
 class SessionRecord {
  public:
-  /// Makes the folder and writes the scene. Throws Error(io).
-  SessionRecord(const std::string& folder, const Scene& scene);
+  /// Makes the folder and writes the scene, and `about` as session.json. Throws Error(io).
+  SessionRecord(const std::string& folder, const Scene& scene, const std::string& about);
   ~SessionRecord();
   SessionRecord(const SessionRecord&) = delete;
   SessionRecord& operator=(const SessionRecord&) = delete;

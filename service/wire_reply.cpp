@@ -52,6 +52,14 @@ void split(std::string_view text, WireError& out) {
   out.message = text;
 }
 
+/// A refusal may quote what was sent, but not all of it. Cut between characters.
+void shorten(std::string& text, std::size_t most) {
+  if (text.size() <= most) return;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0u) == 0x80u) --most;
+  text.resize(most);
+  text += "...";
+}
+
 }  // namespace
 
 std::string encoded(const Json& message, Encoding encoding) {
@@ -93,7 +101,11 @@ WireError wire_error(const std::exception& fault) {
   const auto* error = dynamic_cast<const Error*>(&fault);
   if (error == nullptr) return out;
   out.code = code_name(error->code());
+  // What went wrong with the server's own files is not the client's to know.
+  if (error->code() == ErrorCode::io) return {"internal", "the server could not write its record", ""};
   split(fault.what(), out);
+  shorten(out.message, 500);
+  shorten(out.pointer, 200);
   return out;
 }
 

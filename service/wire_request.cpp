@@ -11,6 +11,7 @@ namespace gridcull {
 namespace {
 
 constexpr const char* source = "message";
+constexpr std::size_t longest_name = 200;
 
 std::string text_or(const JsonRef& root, const char* key) {
   const auto json = root.find(key);
@@ -56,6 +57,9 @@ OpenRequest read_open(const WireRequest& request, int most_threads) {
   OpenRequest out;
   out.options.scene = source;
   out.name = text_or(root, "name");
+  if (out.name.size() > longest_name) {
+    root.at("name").refuse("at most " + std::to_string(longest_name) + " bytes");
+  }
   out.token = text_or(root, "token");
   if (const auto method = root.find("method")) out.options.method = method->string();
   if (const auto options = root.find("options")) read_options(*options, most_threads, out.options);

@@ -158,6 +158,10 @@ JsonTree::JsonTree(std::string_view text, std::string source, ErrorCode code, En
   }
   Builder builder(*this);
   if (encoding == Encoding::json) {
+    // The reader takes it for the end.
+    if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
+      throw Error(ErrorCode::bad_message, source_ + ": expected JSON: found a zero byte at " + std::to_string(zero));
+    }
     nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
     return;
   }
@@ -292,6 +296,7 @@ std::string JsonRef::found() const {
     case JsonTree::Kind::boolean: return node().number != 0.0 ? "true" : "false";
     case JsonTree::Kind::integer:
     case JsonTree::Kind::number: {
+      if (!std::isfinite(node().number)) return node().number != node().number ? "NaN" : "infinity";
       std::string text;
       append_number(text, node().number);
       return text;

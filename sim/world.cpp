@@ -1,6 +1,7 @@
 #include "gridcull/sim/world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -31,6 +32,19 @@ std::string at(const Frame& frame, std::string_view list, std::size_t i, std::st
   refuse(place, "expected each id once, found " + std::to_string(id) + " twice");
 }
 
+/// What a place may be away from the origin along an axis, metres (FORMATS: magnitudes of numbers).
+constexpr double edge_of_world = 1e9;
+
+double largest(const Vec3& p) { return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
+
+double length_of_offset(const SceneViewer& viewer) {
+  return viewer.follows ? glm::length(viewer.pose.position) * (1.0 + 1e-8) : 0.0;
+}
+
+bool out_of_world(const Pose& base, const SceneViewer& viewer) {
+  return largest(to_world(base, rotation_of(base.orientation), viewer.pose.position)) > edge_of_world;
+}
+
 /// Then none stands twice: the usual case of the longest list, found without a table.
 bool ids_ascend(const std::vector<ObjectMove>& moves) {
   const auto not_less = [](const ObjectMove& a, const ObjectMove& b) { return a.id >= b.id; };
@@ -44,6 +58,7 @@ struct World::Plan {
   std::unordered_set<ObjectId> removed{}, added{}, set{};
   std::unordered_set<ViewerId> dropped{};
   std::vector<SceneViewer> viewers{};  ///< after their updates
+  double farthest_object = 0.0, longest_offset = 0.0;
 };
 
 World::World(const Scene& scene) : dimension_(scene.dimension) {
@@ -61,6 +76,10 @@ World::World(const Scene& scene) : dimension_(scene.dimension) {
       throw Error(ErrorCode::bad_scene,
                   name + ": follows object " + std::to_string(*viewer.follows) + ", which is not there");
     }
+    if (viewer.follows && out_of_world(object(*viewer.follows).pose, viewer)) {
+      throw Error(ErrorCode::bad_scene, name + ": expected a viewpoint of magnitude at most 1e9");
+    }
+    longest_offset_ = std::max(longest_offset_, length_of_offset(viewer));
     if (!viewers_.emplace(viewer.id, viewer).second)
       throw Error(ErrorCode::bad_scene, name + ": the id is there twice");
   }
@@ -123,6 +142,48 @@ void World::check_viewers(const Frame& frame, Plan& plan) const {
   }
 }
 
+Pose World::pose_after(ObjectId id, const Frame& frame) const {
+  Pose out;
+  const auto added =
+      std::find_if(frame.add.begin(), frame.add.end(), [id](const auto& o) { return o.object.id == id; });
+  if (added != frame.add.end()) {
+    out = added->object.pose;
+  } else {
+    out = object(id).pose;
+  }
+  const auto moved = std::find_if(frame.set.begin(), frame.set.end(), [id](const ObjectMove& m) { return m.id == id; });
+  if (moved == frame.set.end()) return out;
+  if (moved->position) out.position = *moved->position;
+  if (moved->orientation) out.orientation = *moved->orientation;
+  return out;
+}
+
+/// A viewer that follows an object stands where no number of the frame says: offsets are added to places.
+void World::check_viewpoints(const Frame& frame, Plan& plan) const {
+  plan.farthest_object = farthest_object_;
+  plan.longest_offset = longest_offset_;
+  for (const SceneObject& o : frame.add)
+    plan.farthest_object = std::max(plan.farthest_object, largest(o.object.pose.position));
+  for (const ObjectMove& move : frame.set) {
+    if (move.position) plan.farthest_object = std::max(plan.farthest_object, largest(*move.position));
+  }
+  for (const SceneViewer& viewer : plan.viewers)
+    plan.longest_offset = std::max(plan.longest_offset, length_of_offset(viewer));
+  if (plan.farthest_object + plan.longest_offset <= edge_of_world) return;
+  const auto check = [&](const SceneViewer& viewer, const std::string& place) {
+    if (!viewer.follows || !has_after(*viewer.follows, plan)) return;
+    if (out_of_world(pose_after(*viewer.follows, frame), viewer)) {
+      refuse(place, "viewer " + std::to_string(viewer.id) + ": expected a viewpoint of magnitude at most 1e9");
+    }
+  };
+  for (std::size_t i = 0; i < plan.viewers.size(); ++i) check(plan.viewers[i], at(frame, "viewers", i));
+  for (const auto& [id, viewer] : viewers_) {
+    const auto same = [id = id](const SceneViewer& v) { return v.id == id; };
+    if (plan.dropped.contains(id) || std::any_of(plan.viewers.begin(), plan.viewers.end(), same)) continue;
+    check(viewer, (frame.where.empty() ? std::string("frame") : frame.where) + ": ");
+  }
+}
+
 void World::apply(const Frame& frame) {
   if (time_ && !(frame.time > *time_)) {
     std::string text = frame.where.empty() ? "frame" : frame.where;
@@ -133,8 +194,11 @@ void World::apply(const Frame& frame) {
   Plan plan;
   check_objects(frame, plan);
   check_viewers(frame, plan);
+  check_viewpoints(frame, plan);
 
   time_ = frame.time;
+  farthest_object_ = plan.farthest_object;
+  longest_offset_ = plan.longest_offset;
   for (const ObjectId id : frame.remove) erase(id);
   for (const SceneObject& object : frame.add) insert(object.object);
   find_set(frame);
@@ -160,6 +224,7 @@ void World::find_set(const Frame& frame) {
 void World::insert(const Object& object) {
   index_.emplace(object.id, objects_.size());
   objects_.push_back(object);
+  farthest_object_ = std::max(farthest_object_, largest(object.pose.position));
 }
 
 void World::erase(ObjectId id) {

@@ -48,6 +48,8 @@ class World {
   void find_set(const Frame& frame);
   void check_objects(const Frame& frame, Plan& plan) const;
   void check_viewers(const Frame& frame, Plan& plan) const;
+  void check_viewpoints(const Frame& frame, Plan& plan) const;
+  Pose pose_after(ObjectId id, const Frame& frame) const;
   bool has_after(ObjectId id, const Plan& plan) const;
   void insert(const Object& object);
   void erase(ObjectId id);
@@ -57,6 +59,8 @@ class World {
   std::vector<Object> objects_{};
   std::unordered_map<ObjectId, std::size_t> index_{};  ///< id -> place in objects_; looked up, never walked
   std::map<ViewerId, SceneViewer> viewers_{};
+  // No viewpoint can leave the world's 1e9 m while their sum does not; both only grow.
+  double farthest_object_ = 0.0, longest_offset_ = 0.0;  ///< metres
   std::vector<std::size_t> set_places_{};  ///< in objects_, of the last frame's set
 };
 

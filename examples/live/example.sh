@@ -57,7 +57,8 @@ run_example() {
 
 # A server on any free port that holds every answer against the reference; sets `port`.
 serve_example() {
-  "$gridcull" serve --port 0 --audit 1 >"$out/serve.log" &
+  # A session of its own: Ctrl-C ends the example, which then ends the server.
+  setsid "$gridcull" serve --port 0 --audit 1 >"$out/serve.log" &
   server=$!
   trap 'kill "$server" 2>/dev/null || true' EXIT
   for _ in $(seq 100); do

@@ -92,24 +92,32 @@ void run_live(const LiveOptions& options, const Scene& scene, FrameSource& frame
   Frame frame;
   Lap lap;
   double told = -1e12;
-  while (!stopped && frames.next(frame)) {
-    totals.simulating += lap();
-    const Answers& answers = sight->see(frame);
-    totals.asking += lap();
-    totals.collector.add(answers);
-    record.add(totals.steps++, frame, answers);
-    for (const Answer& answer : answers.views) {
-      for (const ObjectId id : answer.visible) totals.movers_seen += id >= scene.objects.size() ? 1 : 0;
+  const auto finish = [&] {
+    record.commit();
+    report(options, scene, totals);
+  };
+  try {
+    while (!stopped && frames.next(frame)) {
+      totals.simulating += lap();
+      const Answers& answers = sight->see(frame);
+      totals.asking += lap();
+      totals.collector.add(answers);
+      record.add(totals.steps++, frame, answers);
+      for (const Answer& answer : answers.views) {
+        for (const ObjectId id : answer.visible) totals.movers_seen += id >= scene.objects.size() ? 1 : 0;
+      }
+      if (frame.time > told + 1.0 - 1e-6) {
+        tell(frame, answers);
+        std::fflush(stdout);
+        told = frame.time;
+      }
+      lap();
     }
-    if (frame.time > told + 1.0 - 1e-6) {
-      tell(frame, answers);
-      std::fflush(stdout);
-      told = frame.time;
-    }
-    lap();
+  } catch (...) {  // the server or the simulator has gone: what there is so far is kept
+    finish();
+    throw;
   }
-  record.commit();
-  report(options, scene, totals);
+  finish();
 }
 
 std::string named(const Answer& answer, const Scene& scene, const std::function<std::string(ObjectId)>& name) {

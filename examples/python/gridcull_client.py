@@ -29,6 +29,7 @@ class Client:
         self.session = self.token = None
         self.seq = 0
         self.seen = {}  # viewer -> set of ids, by the answers so far
+        self.last = None  # the last frame's message
 
     @classmethod
     async def connect(cls, url, binary=True):
@@ -58,9 +59,20 @@ class Client:
 
     async def frame(self, time, reply="full", **parts):
         """One frame; `parts` as in gridcull.frames/1, or what moves() gives. Gives {viewer: sorted ids}."""
-        parts["bulk"] = bulk = self.binary and parts.get("bulk", True)
-        answer = await self.ask({"type": "frame", "seq": self.seq + 1, "time": time, "reply": reply, **parts})
+        parts["bulk"] = self.binary and parts.get("bulk", True)
+        self.last = {"type": "frame", "seq": self.seq + 1, "time": time, "reply": reply, **parts}
+        return self._answers(await self.ask(self.last))
+
+    async def repeat(self):
+        """After resume(): sends the last frame again, since nobody knows whether it or its answer was lost, and gives
+        its answers. The server applies a frame once."""
+        return self._answers(await self.ask(self.last))
+
+    def _answers(self, answer):
+        if answer["seq"] != self.last["seq"]:
+            raise RuntimeError(f"frame {self.last['seq']} got another's answer: was a call cancelled? resume()")
         self.seq = answer["seq"]
+        bulk = self.last["bulk"]
         return {entry["viewer"]: self._take(entry, bulk) for entry in answer.get("answers", [])}
 
     def _take(self, entry, bulk):
@@ -79,6 +91,7 @@ class Client:
 
     async def resume(self):
         """After a lost connection: a new one to the same session. Gives the number of the last frame it applied."""
+        await self.socket.close()
         self.socket = await websockets.connect(self.url + "/v1/stream", max_size=None)
         answer = await self.ask({"type": "resume", "session": self.session, "token": self.token})
         self.seq = answer["seq"]
@@ -95,6 +108,9 @@ def moves(ids, positions, headings=None, orientations=None):
     are the same in every bit as from a file."""
     import numpy
 
+    ids = numpy.asarray(ids)
+    if ids.size and (ids.min() < 0 or ids.max() > 2**32 - 2):
+        raise ValueError("ids: expected whole numbers 0 .. 2^32 - 2")
     out = {"set_ids": numpy.ascontiguousarray(ids, "<u4").tobytes(),
            "set_positions64": numpy.ascontiguousarray(positions, "<f8").tobytes()}
     if headings is not None:

@@ -102,16 +102,13 @@ class Client {
       message["set_positions64"] = bytes_of(std::span(frame.positions));
       message[flat ? "set_headings64" : "set_orientations64"] = bytes_of(std::span(frame.turns));
     }
-    const nlohmann::json answer = ask(message);
-    seq_ = answer.at("seq").get<std::uint64_t>();
-    Answers out;
-    if (answer.at("type") != "pvs") return out;
-    for (const nlohmann::json& one : answer.at("answers")) {
-      const auto viewer = one.at("viewer").get<std::uint32_t>();
-      out[viewer] = seen_[viewer] = take(one, seen_[viewer]);
-    }
-    return out;
+    last_ = std::move(message);
+    return take_answers(ask(last_));
   }
+
+  /// After reconnect(): sends the last frame again, since nobody knows whether it or its answer was lost, and gives its
+  /// answers. The server applies a frame once.
+  Answers repeat() { return take_answers(ask(last_)); }
 
   /// Why the viewer sees the object in the last frame, or does not.
   nlohmann::json explain(std::uint32_t viewer, std::uint32_t object) {
@@ -146,6 +143,19 @@ class Client {
   }
 
  private:
+  Answers take_answers(const nlohmann::json& answer) {
+    const auto seq = answer.at("seq").get<std::uint64_t>(), asked = last_.at("seq").get<std::uint64_t>();
+    if (seq != asked) throw std::runtime_error("gridcull: frame " + std::to_string(asked) + " got another's answer");
+    seq_ = seq;
+    Answers out;
+    if (answer.at("type") != "pvs") return out;
+    for (const nlohmann::json& one : answer.at("answers")) {
+      const auto viewer = one.at("viewer").get<std::uint32_t>();
+      out[viewer] = seen_[viewer] = take(one, seen_[viewer]);
+    }
+    return out;
+  }
+
   using Stream = boost::beast::websocket::stream<boost::asio::ip::tcp::socket>;
 
   void connect() {
@@ -188,6 +198,7 @@ class Client {
   std::string session_, token_;
   std::uint64_t seq_ = 0;
   std::vector<std::uint8_t> outgoing_;  // kept for its memory
+  nlohmann::json last_;                 // the last frame's message
   std::map<std::uint32_t, Ids> seen_;
 };
 

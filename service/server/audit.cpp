@@ -35,20 +35,40 @@ Audit::~Audit() {
 void Audit::offer(std::span<const Object> objects, int dimension, std::span<const View> views, const Answers& answers,
                   Guarantee guarantee, const Told& told) {
   if (!(rate_ > 0.0) || (dimension == 3 && !ExactRays::available())) return;
-  std::shared_ptr<const std::vector<Object>> copy;
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  const std::vector<std::size_t> taken = take(views.size());
+  if (taken.empty()) return;
+  World copy;
+  try {
+    copy = std::make_shared<const std::vector<Object>>(objects.begin(), objects.end());
+  } catch (const std::bad_alloc&) {
+    metrics_.audit_skipped.Increment(static_cast<double>(taken.size()));
     const std::lock_guard lock(mutex_);
+    --worlds_;
+    return;
+  }
+  // The last job that holds it gives its place back.
+  const World counted(copy.get(), [this, copy](const std::vector<Object>*) { --worlds_; });
+  const std::lock_guard lock(mutex_);
+  for (const std::size_t i : taken) jobs_.push_back({counted, dimension, views[i], answers.views[i], guarantee, told});
+  changed_.notify_one();
+}
+
+/// Which of a frame's answers are to be judged; when there are any, a place for a world is taken.
+std::vector<std::size_t> Audit::take(std::size_t answers) {
+  std::vector<std::size_t> out;
+  const std::lock_guard lock(mutex_);
+  for (std::size_t i = 0; i < answers; ++i) {
     owed_ += rate_;
     if (owed_ < 1.0) continue;
     owed_ -= 1.0;
-    if (jobs_.size() >= most_jobs) {
+    if (jobs_.size() + out.size() < most_jobs && worlds_ < most_worlds) {
+      out.push_back(i);
+    } else {
       metrics_.audit_skipped.Increment();
-      continue;
     }
-    if (!copy) copy = std::make_shared<const std::vector<Object>>(objects.begin(), objects.end());
-    jobs_.push_back({copy, dimension, views[i], answers.views[i], guarantee, told});
-    changed_.notify_one();
   }
+  if (!out.empty()) ++worlds_;
+  return out;
 }
 
 void Audit::run() {

@@ -1,6 +1,7 @@
 // Holds a share of the answers against the exact reference, in a thread of its own.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -35,8 +36,9 @@ class Audit {
              Guarantee guarantee, const Told& told);
 
  private:
+  using World = std::shared_ptr<const std::vector<Object>>;
   struct Job {
-    std::shared_ptr<const std::vector<Object>> objects;
+    World objects;
     int dimension;
     View view;
     Answer answer;
@@ -44,7 +46,10 @@ class Audit {
     Told told;
   };
   static constexpr std::size_t most_jobs = 64;
+  /// Copies of worlds that wait at a time, from all sessions.
+  static constexpr int most_worlds = 8;
 
+  std::vector<std::size_t> take(std::size_t answers);
   void run();
   void judge(const Job& job);
 
@@ -52,6 +57,7 @@ class Audit {
   Metrics& metrics_;
   std::mutex mutex_;
   std::condition_variable changed_;
+  std::atomic<int> worlds_ = 0;
   std::deque<Job> jobs_;
   double owed_ = 0.0;  // answers to take
   bool ending_ = false;

@@ -23,12 +23,13 @@ namespace asio = boost::asio;
 namespace websocket = beast::websocket;
 
 Connection::Connection(beast::tcp_stream&& stream, ServerParts& parts)
-    : parts_(parts), stream_(std::move(stream)), stalled_(stream_.get_executor()) {
+    : parts_(parts), stream_(std::move(stream)), stalled_(stream_.get_executor()), again_(stream_.get_executor()) {
   parts_.metrics.connections.Increment();
 }
 
 Connection::~Connection() {
   parts_.metrics.connections.Decrement();
+  parts_.incoming -= counted_;
   if (held_) parts_.hub.leave(held_, this);
 }
 
@@ -63,32 +64,58 @@ void Connection::read() {
 void Connection::on_read(beast::error_code fault) {
   if (fault) return drop();
   if (closing_ || ended_) return;
-  if (incoming_.size() > parts_.options.max_message) {
-    refuse(
-        Error(ErrorCode::limit, "message: expected at most " + std::to_string(parts_.options.max_message) + " bytes"),
-        std::nullopt);
+  count_incoming();
+  const bool too_big = incoming_.size() > parts_.options.max_message;
+  // A share of the rest is left for those who are heard.
+  if (too_big || (counted_ > (1u << 20) && parts_.incoming > most_incoming * parts_.options.max_message)) {
+    const std::string most = std::to_string(parts_.options.max_message);
+    refuse(Error(ErrorCode::limit, too_big ? "message: expected at most " + most + " bytes"
+                                           : "message: too many large messages at a time"),
+           std::nullopt);
     return close(websocket::close_code::too_big, "the message is too big");
   }
   if (stream_.is_message_done()) {
     encoding_ = stream_.got_text() ? Encoding::json : Encoding::cbor;
-    handle_message();
-    incoming_.consume(incoming_.size());
-    // What a huge message took is given back.
-    if (incoming_.capacity() > (1u << 20)) incoming_ = {};
+    return handle_message();
   }
   read();
+}
+
+void Connection::count_incoming() {
+  parts_.incoming += incoming_.size() - counted_;
+  counted_ = incoming_.size();
 }
 
 void Connection::handle_message() {
   const auto data = incoming_.cdata();
   std::optional<std::uint64_t> seq;
   try {
+    if (held_) held_->lock_if_idle();  // before a long message is read once more in vain
     const WireRequest request({static_cast<const char*>(data.data()), data.size()}, encoding_);
     if (request.type() == "frame") seq = seq_of(request);
     dispatch(request);
+  } catch (const SessionBusy&) {
+    return try_again();
   } catch (const std::exception& fault) {
     refuse(fault, seq);
+    if (failed_) close(websocket::close_code::internal_error, "the session failed");
   }
+  finish_message();
+}
+
+void Connection::finish_message() {
+  incoming_.consume(incoming_.size());
+  count_incoming();
+  // What a huge message took is given back.
+  if (incoming_.capacity() > (1u << 20)) incoming_ = {};
+  read();
+}
+
+void Connection::try_again() {
+  again_.expires_after(std::chrono::milliseconds(2));
+  again_.async_wait([self = shared_from_this()](beast::error_code fault) {
+    if (!fault && !self->closing_ && !self->ended_) self->handle_message();
+  });
 }
 
 void Connection::dispatch(const WireRequest& request) {
@@ -119,13 +146,13 @@ void Connection::open(const WireRequest& request) {
 void Connection::resume(const WireRequest& request) {
   if (held_) throw Error(ErrorCode::sequence, "message: expected \"close\" before \"resume\"");
   held_ = parts_.hub.resume(read_resume(request), shared_from_this());
-  const std::lock_guard lock(held_->mutex);
-  say({{"type", "resumed"}, {"seq", held_->session.seq()}});
+  say({{"type", "resumed"}, {"seq", held_->summary().seq}});
 }
 
 std::unique_lock<std::mutex> Connection::use_session() const {
   if (!held_) throw Error(ErrorCode::sequence, "message: expected \"open\" or \"resume\" first");
-  std::unique_lock lock(held_->mutex);
+  std::unique_lock lock = held_->lock_if_idle();
+  if (held_->ended) throw Error(ErrorCode::sequence, "message: the session has ended");
   if (held_->client.lock().get() != this) {
     throw Error(ErrorCode::forbidden, "message: another connection has resumed the session");
   }
@@ -142,13 +169,13 @@ void Connection::apply_frame(const WireRequest& request) {
     const std::string bytes = encoded(frame_message(session.apply(std::move(frame))), encoding_);
     send(std::make_shared<const std::string>(bytes), encoding_ == Encoding::json);
   } catch (...) {
-    if (session.broken()) {
-      parts_.hub.close(held_);
-      close(websocket::close_code::internal_error, "the session failed");
-    }
+    // The refusal goes out first.
+    failed_ = session.broken();
+    if (failed_) parts_.hub.close(held_);
     throw;
   }
   if (!is_new) return;
+  held_->summarise(true);
   note_frame(session, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (held_->watchers.empty()) return session.draw(no_id);
   nlohmann::ordered_json step = watch_step(session, session.last_frame());
@@ -179,9 +206,10 @@ void Connection::note_frame(const Session& session, double seconds) {
 
 void Connection::explain_object(const WireRequest& request) {
   // Those who watch may ask too.
-  const bool own = held_ || !watched_;
-  const std::unique_lock lock = own ? use_session() : std::unique_lock(watched_->mutex);
-  const Session& session = (own ? held_ : watched_)->session;
+  const std::shared_ptr<HeldSession> seen = held_ || !watches_ ? nullptr : watched_.lock();
+  if (!seen && !held_ && watches_) throw Error(ErrorCode::sequence, "message: the session has ended");
+  const std::unique_lock lock = seen ? seen->lock_if_idle() : use_session();
+  const Session& session = (seen ? seen : held_)->session;
   say(explained_json(session.explain(read_explain(request)), session.dimension()));
 }
 
@@ -190,32 +218,35 @@ void Connection::watch(const WireRequest& request) {
   if (!parts_.options.token.empty() && !same_secret(parts_.options.token, key.token)) {
     throw Error(ErrorCode::forbidden, "message: /token: expected the server's token");
   }
-  const std::shared_ptr<HeldSession> found = parts_.hub.find(key.session);
-  const bool again = found == watched_;
-  if (watched_ && !again) stop_watching();
+  const std::shared_ptr<HeldSession> found = parts_.hub.find(key.session), before = watched_.lock();
+  const bool again = found == before;
+  if (before && !again) stop_watching(*before);
+  const std::unique_lock lock = found->lock_if_idle();
+  if (found->ended) throw Error(ErrorCode::forbidden, "message: expected a session that is there and its token");
   watched_ = found;
-  const std::lock_guard lock(watched_->mutex);
+  watches_ = true;
+  Session& session = found->session;
   // One drawing a session: the last who chose a viewer.
-  if (viewer != no_id) watched_->session.draw(viewer);
-  say(watch_start(watched_->session, key.session));
-  if (!again) watched_->watchers.push_back(weak_from_this());
+  if (viewer != no_id) session.draw(viewer);
+  say(watch_start(session, key.session));
+  if (!again) found->watchers.push_back(weak_from_this());
   // The world above holds what the last frame did: its time, views and answers are what is missing.
-  const Session& session = watched_->session;
-  if (session.seq() > 0) say(watch_step(session, Frame{.time = session.last_frame().time}));
+  if (session.seq() > 0) say(watch_step(session, Frame{.time = session.world().time().value_or(0.0)}));
 }
 
-void Connection::stop_watching() {
-  const std::lock_guard lock(watched_->mutex);
-  std::erase_if(watched_->watchers, [this](const auto& watcher) { return watcher.lock().get() == this; });
-  if (watched_->watchers.empty()) watched_->session.draw(no_id);
+void Connection::stop_watching(HeldSession& session) {
+  const std::unique_lock lock = session.lock_if_idle();
+  std::erase_if(session.watchers, [this](const auto& watcher) { return watcher.lock().get() == this; });
+  if (session.watchers.empty()) session.session.draw(no_id);
+  watched_.reset();
+  watches_ = false;
 }
 
 void Connection::close_session() {
   {
     const std::unique_lock lock = use_session();
-    held_->client.reset();
+    parts_.hub.close(held_);
   }
-  parts_.hub.close(held_);
   held_.reset();
   say({{"type", "closed"}});
 }
@@ -238,9 +269,18 @@ void Connection::watched(std::shared_ptr<const std::string> message) {
     if (self->outgoing_.size() < watch_backlog) return self->send(message, true);
     self->parts_.metrics.slow_closed.Increment();
     self->watched_.reset();
+    self->watches_ = false;
     // What is being written has to stay.
     self->outgoing_.resize(1);
     self->close(websocket::close_code::try_again_later, "too slow to watch");
+  });
+}
+
+void Connection::watched_ended() {
+  asio::post(stream_.get_executor(), [self = shared_from_this()] {
+    self->watched_.reset();
+    static const auto message = std::make_shared<const std::string>(R"({"type":"ended"})");
+    self->send(message, true);
   });
 }
 

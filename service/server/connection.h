@@ -1,6 +1,7 @@
 // One WebSocket connection: messages in, answers out, one at a time and in order (FORMATS, "Service").
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -33,6 +34,8 @@ struct ServerParts {
   Metrics metrics;
   Hub hub;
   Audit audit;
+  /// Bytes of unfinished messages, of all connections.
+  std::atomic<std::size_t> incoming = 0;
 };
 
 class Connection final : public SessionListener, public std::enable_shared_from_this<Connection> {
@@ -51,6 +54,7 @@ class Connection final : public SessionListener, public std::enable_shared_from_
 
   void taken_over() override;
   void watched(std::shared_ptr<const std::string> message) override;
+  void watched_ended() override;
 
  private:
   using Bytes = std::shared_ptr<const std::string>;
@@ -62,18 +66,24 @@ class Connection final : public SessionListener, public std::enable_shared_from_
   static constexpr std::size_t patience = 4;
   /// What a watcher may be behind.
   static constexpr std::size_t watch_backlog = 64;
+  /// Greatest messages' worth of unfinished ones, of all connections.
+  static constexpr std::size_t most_incoming = 8;
 
   void accept(const Request& request);
   void read();
   void on_read(boost::beast::error_code fault);
+  /// The message in `incoming_`; again a little later while the session that it is about is at work.
   void handle_message();
+  void finish_message();
+  void try_again();
+  void count_incoming();
   void dispatch(const WireRequest& request);
   void open(const WireRequest& request);
   void resume(const WireRequest& request);
   void apply_frame(const WireRequest& request);
   void explain_object(const WireRequest& request);
   void watch(const WireRequest& request);
-  void stop_watching();
+  void stop_watching(HeldSession& session);
   void close_session();
   /// The session with its lock; refuses when there is none or somebody else has it.
   std::unique_lock<std::mutex> use_session() const;
@@ -92,15 +102,18 @@ class Connection final : public SessionListener, public std::enable_shared_from_
   std::shared_ptr<void> companion_;
   ServerParts& parts_;
   boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
-  boost::asio::steady_timer stalled_;
+  boost::asio::steady_timer stalled_, again_;
   boost::beast::flat_buffer incoming_;
   std::deque<Outgoing> outgoing_;
   Encoding encoding_ = Encoding::json;  // of the message in hand
   bool writing_ = false, reading_ = false;
   std::optional<boost::beast::websocket::close_reason> closing_;  // when all is written
+  bool failed_ = false;                                           // the session broke
   bool ended_ = false;                                            // nothing more is read or written
   std::shared_ptr<HeldSession> held_;                             // the client's session
-  std::shared_ptr<HeldSession> watched_;
+  std::weak_ptr<HeldSession> watched_;                            // it ends without us
+  bool watches_ = false;
+  std::size_t counted_ = 0;  // bytes of `incoming_` that ServerParts::incoming knows of
 };
 
 }  // namespace gridcull

@@ -25,6 +25,10 @@ class Opening {
   std::uint64_t& count_;
 };
 
+[[noreturn]] void refuse_unknown() {
+  throw Error(ErrorCode::forbidden, "message: expected a session that is there and its token");
+}
+
 }  // namespace
 
 void Hub::update_gauge() { metrics_.sessions.Set(static_cast<double>(sessions_.size())); }
@@ -43,6 +47,7 @@ std::shared_ptr<HeldSession> Hub::open(OpenRequest request, const std::shared_pt
   const std::string record = options_.record.empty() ? "" : options_.record + "/" + key.session;
   auto held = std::make_shared<HeldSession>(key, std::move(request), Session::Limits{options_.max_objects}, record);
   held->client = client;
+  held->summarise(true);
   const std::lock_guard lock(mutex_);
   sessions_.emplace(key.session, held);
   update_gauge();
@@ -52,25 +57,37 @@ std::shared_ptr<HeldSession> Hub::open(OpenRequest request, const std::shared_pt
 std::shared_ptr<HeldSession> Hub::find(const std::string& id) const {
   const std::lock_guard lock(mutex_);
   const auto found = sessions_.find(id);
-  if (found == sessions_.end())
-    throw Error(ErrorCode::forbidden, "message: expected a session that is there and its token");
+  if (found == sessions_.end()) refuse_unknown();
   return found->second;
 }
 
 std::shared_ptr<HeldSession> Hub::resume(const SessionKey& key, const std::shared_ptr<SessionListener>& client) {
   std::shared_ptr<HeldSession> held = find(key.session);
   if (!same_secret(held->key.token, key.token)) {
-    throw Error(ErrorCode::forbidden, "message: expected a session that is there and its token");
+    refuse_unknown();
   }
-  const std::lock_guard lock(held->mutex);
+  const std::unique_lock lock = held->lock_if_idle();
+  if (held->ended) refuse_unknown();
   const std::shared_ptr<SessionListener> before = held->client.lock();
   if (before && before != client) before->taken_over();
   held->client = client;
+  held->left.reset();
   held->session.resume();
+  held->summarise(true);
   return held;
 }
 
+void Hub::end(HeldSession& held) {
+  held.ended = true;
+  held.client.reset();
+  for (const auto& watcher : held.watchers) {
+    if (const std::shared_ptr<SessionListener> there = watcher.lock()) there->watched_ended();
+  }
+  held.watchers.clear();
+}
+
 void Hub::close(const std::shared_ptr<HeldSession>& held) {
+  end(*held);
   const std::lock_guard lock(mutex_);
   sessions_.erase(held->key.session);
   update_gauge();
@@ -82,6 +99,7 @@ void Hub::leave(const std::shared_ptr<HeldSession>& held, const SessionListener*
   if (now && now.get() != client) return;  // somebody else took it over
   held->client.reset();
   held->left = std::chrono::steady_clock::now();
+  held->summarise(false);
 }
 
 void Hub::sweep() {
@@ -92,7 +110,8 @@ void Hub::sweep() {
     bool over = false;
     // One that is at work has a client.
     if (const std::unique_lock held(at->second->mutex, std::try_to_lock); held.owns_lock()) {
-      over = at->second->client.expired() && now - at->second->left > options_.keep;
+      over = at->second->left && now - *at->second->left > options_.keep;
+      if (over) end(*at->second);
     }
     if (over) {
       ended.push_back(std::move(at->second));
@@ -112,17 +131,17 @@ nlohmann::ordered_json Hub::list() const {
   }
   nlohmann::ordered_json sessions = nlohmann::ordered_json::array();
   for (const auto& held : all) {
-    const std::lock_guard lock(held->mutex);
-    const Session& session = held->session;
+    const Session& session = held->session;  // its name and kind never change
+    const SessionSummary now = held->summary();
     sessions.push_back({{"session", held->key.session},
                         {"name", session.name()},
                         {"method", session.method()},
                         {"dimension", session.dimension()},
-                        {"objects", session.objects()},
-                        {"viewers", session.world().viewer_count()},
-                        {"seq", session.seq()},
-                        {"connected", !held->client.expired()},
-                        {"pvs_hash", hash_text(session.pvs_hash())}});
+                        {"objects", now.objects},
+                        {"viewers", now.viewers},
+                        {"seq", now.seq},
+                        {"connected", now.connected},
+                        {"pvs_hash", hash_text(now.pvs_hash)}});
   }
   return {{"sessions", std::move(sessions)}};
 }

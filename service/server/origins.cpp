@@ -8,6 +8,15 @@
 #include <boost/asio/ip/address.hpp>
 
 namespace gridcull {
+namespace {
+
+std::string_view without_port(std::string_view host) {
+  const std::size_t colon = host.rfind(':');
+  const bool in_address = colon != std::string_view::npos && host.find(']', colon) != std::string_view::npos;
+  return in_address ? host : host.substr(0, colon);
+}
+
+}  // namespace
 
 Origins::Origins(const std::string& address, std::uint16_t port, std::vector<std::string> allowed)
     : allowed_(std::move(allowed)) {
@@ -21,7 +30,16 @@ Origins::Origins(const std::string& address, std::uint16_t port, std::vector<std
   }
 }
 
+/// The name of one of the allowed origins, on any port: the name is what a page from elsewhere cannot borrow.
+bool Origins::knows(std::string_view host) const {
+  return std::any_of(allowed_.begin(), allowed_.end(), [&](std::string_view origin) {
+    const std::size_t start = origin.find("://");
+    return start != std::string_view::npos && without_port(origin.substr(start + 3)) == without_port(host);
+  });
+}
+
 bool Origins::may_use(std::string_view origin, std::string_view host) const {
+  if (loopback_ && !host.empty() && !knows(host)) return false;
   if (origin.empty()) return true;
   if (std::find(allowed_.begin(), allowed_.end(), origin) != allowed_.end()) return true;
   return !loopback_ && (origin == "http://" + std::string(host) || origin == "https://" + std::string(host));

@@ -17,6 +17,8 @@ class Origins {
   bool may_use(std::string_view origin, std::string_view host) const;
 
  private:
+  bool knows(std::string_view host) const;
+
   std::vector<std::string> allowed_;
   bool loopback_;
 };

@@ -47,7 +47,7 @@ std::string url_of(const Tcp::endpoint& endpoint) {
 
 struct Server::Detail {
   explicit Detail(const ServerOptions& options)
-      : parts(options), acceptor(context), signals(context), sweeper(context), last(context), breather(context) {
+      : parts(options), acceptor(strand), signals(strand), sweeper(strand), last(strand), breather(strand) {
     const Tcp::endpoint wanted = endpoint_of(options);
     try {
       acceptor.open(wanted.protocol());
@@ -60,6 +60,18 @@ struct Server::Detail {
     }
     endpoint = acceptor.local_endpoint();
     origins.emplace(options.address, endpoint.port(), options.allowed_origins);
+  }
+
+  /// One thread. A handler that fails, mostly for want of memory, ends its connection, which nobody holds then.
+  void serve() {
+    for (;;) {
+      try {
+        context.run();
+        return;
+      } catch (const std::exception&) {
+        parts.metrics.count_rejected("internal");
+      }
+    }
   }
 
   void accept() {
@@ -157,6 +169,8 @@ struct Server::Detail {
   std::vector<std::weak_ptr<Connection>> connections;
   asio::io_context context;
   std::optional<asio::executor_work_guard<asio::io_context::executor_type>> work{asio::make_work_guard(context)};
+  // What is the server's own, one handler at a time.
+  asio::strand<asio::io_context::executor_type> strand{context.get_executor()};
   Tcp::acceptor acceptor;
   asio::signal_set signals;
   asio::steady_timer sweeper, last, breather;
@@ -178,16 +192,18 @@ void Server::run(bool signals) {
       if (!fault) d.stop();
     });
   }
-  d.accept();
-  d.sweep();
+  asio::post(d.strand, [&d] {
+    d.accept();
+    d.sweep();
+  });
   std::vector<std::thread> threads;
-  for (int i = 1; i < d.parts.options.threads; ++i) threads.emplace_back([&d] { d.context.run(); });
-  d.context.run();
+  for (int i = 1; i < d.parts.options.threads; ++i) threads.emplace_back([&d] { d.serve(); });
+  d.serve();
   for (std::thread& thread : threads) thread.join();
 }
 
 void Server::stop() {
-  asio::post(detail_->context, [this] { detail_->stop(); });
+  asio::post(detail_->strand, [this] { detail_->stop(); });
 }
 
 }  // namespace gridcull

@@ -38,11 +38,12 @@ struct Page {
   std::string body{};
 };
 
-inline Page http_get(std::uint16_t port, const std::string& path, const std::string& origin = "") {
+inline Page http_get(std::uint16_t port, const std::string& path, const std::string& origin = "",
+                     const std::string& host = "") {
   boost::asio::io_context context;
   Tcp::socket socket = connected(context, port);
   beast::http::request<beast::http::string_body> request(beast::http::verb::get, path, 11);
-  request.set(beast::http::field::host, "127.0.0.1:" + std::to_string(port));
+  request.set(beast::http::field::host, host.empty() ? "127.0.0.1:" + std::to_string(port) : host);
   if (!origin.empty()) request.set(beast::http::field::origin, origin);
   beast::http::write(socket, request);
   beast::flat_buffer buffer;

@@ -181,7 +181,23 @@ TEST_CASE("limits and tokens: each refusal has its code, and the connection live
   client.ask(frame_message(1));
   CHECK(other.receive().at("type") == "step");
   CHECK(client.ask({{"type", "close"}}).at("type") == "closed");
+  CHECK(other.receive().at("type") == "ended");
+  CHECK(other.ask({{"type", "explain"}, {"viewer", 1}, {"object", 0}}).at("code") == "sequence");
+  Json named = open;
+  named["name"] = std::string(201, 'x');
+  CHECK(other.ask(named).at("pointer") == "/name");
   CHECK(other.ask(open).at("type") == "opened");
+}
+
+TEST_CASE("a page from elsewhere whose name points here learns nothing, by whatever request") {
+  RunningServer server;
+  const auto status = [&](const std::string& host) { return http_get(server.port(), "/v1/sessions", "", host).status; };
+  const std::string at = ":" + std::to_string(server.port());
+  CHECK(status("localhost" + at) == 200);
+  CHECK(status("127.0.0.1" + at) == 200);
+  CHECK(status("elsewhere.example" + at) == 403);
+  CHECK(status("elsewhere.example") == 403);
+  CHECK(status("localhost") == 200);
 }
 
 TEST_CASE("pages from elsewhere may not connect, unless they are named") {

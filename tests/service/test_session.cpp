@@ -1,6 +1,7 @@
 // A session of the service, without sockets: the same answers as a replay, refusals that change nothing, answers again.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -240,4 +241,88 @@ TEST_CASE("explain speaks of the last frame") {
     visible += session.explain({viewer, id}).verdict == Explanation::Verdict::visible;
   }
   CHECK(visible > 0);
+}
+
+TEST_CASE("a viewer that comes back is answered in full, whatever its client still remembers") {
+  const auto frame = [](int seq, Json parts) {
+    parts.update({{"type", "frame"}, {"seq", seq}, {"time", seq}, {"reply", "delta"}});
+    return parts;
+  };
+  const Json box = {{"id", 0}, {"shape", {{"type", "disc"}, {"radius", 1}}}, {"position", {5, 5}}};
+  const Json scene = {
+      {"format", "gridcull.scene/1"},
+      {"dimension", 2},
+      {"bounds", {{"min", {0, 0}}, {"max", {20, 20}}}},
+      {"objects", {box, {{"id", 1}, {"shape", {{"type", "disc"}, {"radius", 1}}}, {"position", {9, 5}}}}},
+      {"viewers", {{{"id", 7}, {"follows", 0}}}}};
+  Session session = session_of({{"type", "open"}, {"scene", scene}});
+  CHECK(tell(session, frame(1, {})).answers.at(0).full);
+  CHECK_FALSE(tell(session, frame(2, {})).answers.at(0).full);
+
+  // Its object goes while an answer is lost, and comes back two frames later.
+  session.resume();
+  CHECK(tell(session, frame(3, {{"remove", {0}}})).answers.empty());
+  const ViewerReply back = tell(session, frame(4, {{"add", {box}}})).answers.at(0);
+  CHECK(back.full);
+  CHECK(back.visible == std::vector<ObjectId>{1});
+  CHECK_FALSE(tell(session, frame(5, {})).answers.at(0).full);
+
+  // It is dropped and made again; a new one has nothing to differ from.
+  tell(session, frame(6, {{"drop_viewers", {7}}}));
+  const FrameReply again =
+      tell(session, frame(7, {{"viewers", {{{"id", 7}, {"follows", 0}}, {{"id", 8}, {"follows", 1}}}}}));
+  CHECK(again.answers.at(0).full);
+  CHECK_FALSE(again.answers.at(1).full);
+  CHECK(again.answers.at(1).added == std::vector<ObjectId>{0});
+}
+
+TEST_CASE("a viewpoint out of the world is refused with the frame or scene that leads there") {
+  const Json far = {{"id", 0}, {"shape", {{"type", "disc"}, {"radius", 1}}}, {"position", {9e8, 0}}};
+  Json scene = {{"format", "gridcull.scene/1"},
+                {"dimension", 2},
+                {"bounds", {{"min", {0, 0}}, {"max", {20, 20}}}},
+                {"objects", {far}},
+                {"viewers", {{{"id", 7}, {"follows", 0}, {"offset", {5e7, 0}}}}}};
+  const auto frame = [](int seq, Json parts) {
+    parts.update({{"type", "frame"}, {"seq", seq}, {"time", seq}});
+    return parts;
+  };
+  Session session = session_of({{"type", "open"}, {"scene", scene}});
+  tell(session, frame(1, {}));
+  const auto refused = [&](Json parts) { return refusal([&] { tell(session, frame(2, parts)); }); };
+  CHECK(refused({{"set", {{{"id", 0}, {"position", {9.9e8, 0}}}}}}) == "bad_frame ");
+  CHECK(refused({{"viewers", {{{"id", 7}, {"offset", {2e8, 0}}}}}}) == "bad_frame /viewers/0");
+  CHECK(refused({{"viewers", {{{"id", 8}, {"follows", 0}, {"offset", {2e8, 0}}}}}}) == "bad_frame /viewers/0");
+  CHECK_FALSE(session.broken());
+  CHECK(tell(session, frame(2, {{"set", {{{"id", 0}, {"position", {9.4e8, 0}}}}}})).answers.size() == 1);
+  scene["viewers"][0]["offset"] = {2e8, 0};
+  CHECK(refusal([&] { session_of({{"type", "open"}, {"scene", scene}}); }) == "bad_scene ");
+}
+
+TEST_CASE("numbers that are none, and zero bytes, are refused by their place") {
+  const Town town;
+  Session session = session_of(town.open());
+  Json frame = town.frame(0);
+  frame["time"] = std::nan("");
+  CHECK(refusal([&] { tell(session, frame, Encoding::cbor); }) == "bad_frame /time");
+  frame["time"] = std::numeric_limits<double>::infinity();
+  CHECK(refusal([&] { tell(session, frame, Encoding::cbor); }) == "bad_frame /time");
+  const std::string text = encoded(town.frame(0), Encoding::json) + std::string("\0{}", 3);
+  CHECK(refusal([&] { WireRequest(text, Encoding::json); }) == "bad_message ");
+  CHECK(session.seq() == 0);
+}
+
+TEST_CASE("explain names some cells of something huge, and is quick among many occluders") {
+  Json scene = {
+      {"format", "gridcull.scene/1"},
+      {"dimension", 2},
+      {"bounds", {{"min", {0, 0}}, {"max", {3000, 3000}}}},
+      {"grid", {{"cell", 1}}},
+      {"objects", {{{"id", 0}, {"shape", {{"type", "box"}, {"size", {3000, 3000}}}}, {"position", {1500, 1500}}}}},
+      {"viewers", {{{"id", 1}, {"position", {1, 1}}}}}};
+  Session session = session_of({{"type", "open"}, {"scene", scene}});
+  tell(session, {{"type", "frame"}, {"seq", 1}, {"time", 0}});
+  const Explanation why = session.explain({1, 0});
+  CHECK(why.verdict == Explanation::Verdict::contains_viewer);
+  CHECK(why.cells.size() == Explanation::most_cells);
 }

@@ -23,6 +23,7 @@ export class Connection {
     this.socket.onmessage = ({ data }) => {
       const message = JSON.parse(data);
       if (message.type === 'step') return onStep?.(message, data);
+      if (message.type === 'ended') return this.socket.close(1000, 'The session has ended.');
       const question = this.waiting.shift();
       if (!question) return;
       if (message.type === 'error') question.reject(new Refused(message));
