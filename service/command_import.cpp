@@ -6,14 +6,17 @@
 
 #include <CLI/CLI.hpp>
 
+#include "gridcull/core/error.h"
 #include "gridcull/service/commands.h"
 #include "gridcull/service/file_roles.h"
 #include "gridcull/service/interrupt.h"
 #include "gridcull/service/option_values.h"
 #include "gridcull/service/progress.h"
 #include "gridcull/service/text.h"
+#include "gridcull/sim/import_mesh.h"
 #include "gridcull/sim/import_petrack.h"
 #include "gridcull/sim/import_sumo.h"
+#include "gridcull/sim/scene_json.h"
 #include "gridcull/sim/world_files.h"
 
 namespace gridcull {
@@ -30,15 +33,22 @@ struct SumoCommand : Shared {
   std::vector<double> vehicle_size{};
 };
 
+struct MeshCommand {
+  std::string out{};
+  std::string split = "parts";
+  std::vector<double> orientation{}, heading_degrees{}, move{};
+  MeshImportOptions mesh{};
+};
+
 struct PetrackCommand : Shared {
   PetrackOptions petrack{};
 };
 
 /// Writes what `import` (options and sink bound) gives.
 template <class Import>
-int write_import(const std::string& folder, const std::vector<NamedFile>& inputs, Import&& import) {
+int write_import(const std::string& folder, int dimension, const std::vector<NamedFile>& inputs, Import&& import) {
   keep_apart(inputs, std::vector<NamedFile>{{"--out", folder + "/scene.json"}, {"--out", folder + "/frames.jsonl"}});
-  WorldFiles files(folder, 2);
+  WorldFiles files(folder, dimension);
   Imported imported;
   {
     Progress progress("frames", std::nullopt);
@@ -65,12 +75,54 @@ int import_sumo_files(SumoCommand options) {
   if (const auto& size = options.vehicle_size; !size.empty()) options.sumo.vehicle_size = {size[0], size[1]};
   std::vector<NamedFile> inputs{{"--fcd", options.sumo.fcd}};
   if (!options.sumo.buildings.empty()) inputs.push_back({"--buildings", options.sumo.buildings});
-  return write_import(options.out, inputs, [&](const FrameSink& sink) { return import_sumo(options.sumo, sink); });
+  if (!options.sumo.statics.empty()) inputs.push_back({"--static", options.sumo.statics});
+  const int dimension = named_as_typed([&] { return sumo_dimension(options.sumo); });
+  return write_import(options.out, dimension, inputs,
+                      [&](const FrameSink& sink) { return import_sumo(options.sumo, sink); });
+}
+
+MeshImportOptions::Split split_of(const std::string& name) {
+  if (name == "whole") return MeshImportOptions::Split::whole;
+  if (name == "groups") return MeshImportOptions::Split::groups;
+  if (name == "parts") return MeshImportOptions::Split::parts;
+  throw Error(ErrorCode::usage, "--split: expected parts, groups or whole, found '" + name + "'");
+}
+
+/// First the orientation, then the heading, then the move.
+Pose pose_of(const MeshCommand& options) {
+  Pose out;
+  if (const auto& q = options.orientation; !q.empty()) {
+    try {
+      out.orientation = normalised({q[0], q[1], q[2], q[3]});
+    } catch (const Error&) {
+      throw Error(ErrorCode::usage, "--orientation: expected a quaternion W,X,Y,Z that is not 0,0,0,0");
+    }
+  }
+  if (const auto& turn = options.heading_degrees; !turn.empty()) {
+    out.orientation = turn_about_z(radians_of(turn[0])) * out.orientation;
+  }
+  if (const auto& p = options.move; !p.empty()) out.position = {p[0], p[1], p[2]};
+  return out;
+}
+
+int import_mesh_file(MeshCommand options) {
+  options.mesh.split = split_of(options.split);
+  options.mesh.pose = pose_of(options);
+  keep_apart(std::vector<NamedFile>{{"FILE", options.mesh.file}},
+             std::vector<NamedFile>{{"--out", options.out + "/scene.json"}, {"--out", options.out + "/frames.jsonl"}});
+  const Imported imported = import_mesh(options.mesh);
+  WorldFiles files(options.out, 3);
+  files.write(Frame{});
+  files.commit(imported.scene);
+  for (const std::string& note : imported.notes) std::fprintf(stderr, "gridcull: note: %s\n", note.c_str());
+  std::printf("%s -> %s\n", counted(imported.scene.objects.size(), "static object").c_str(),
+              files.scene_path().c_str());
+  return 0;
 }
 
 int import_petrack_files(PetrackCommand options) {
   options.petrack.viewers = named_as_typed([&] { return parse_viewer_choice(options.viewers); });
-  return write_import(options.out, std::vector<NamedFile>{{"--trajectories", options.petrack.trajectories}},
+  return write_import(options.out, 2, std::vector<NamedFile>{{"--trajectories", options.petrack.trajectories}},
                       [&](const FrameSink& sink) { return import_petrack(options.petrack, sink); });
 }
 
@@ -101,6 +153,17 @@ void add_sumo(CLI::App& import, Action& action) {
   add_positive(command, "--person-radius", sumo.person_radius, positive_metres(), "metres (default 0.25)")
       .type_name("METRES");
   add_positive(command, "--max-speed", sumo.max_speed, {}, "of vehicles, m/s (default 60)");
+  add_text(command, "--static", sumo.statics, "a file name", "scene whose static objects come first (a 3D one: 3D)")
+      .type_name("SCENE");
+  add_positive(command, "--height", sumo.height, positive_metres(),
+               "makes the world 3D; of buildings whose polygon names no height")
+      .type_name("METRES");
+  add_positive(command, "--vehicle-height", sumo.vehicle_height, positive_metres(), "in 3D (default 1.5)")
+      .type_name("METRES");
+  add_positive(command, "--person-height", sumo.person_height, positive_metres(), "in 3D (default 1.75)")
+      .type_name("METRES");
+  add_positive(command, "--eye-height", sumo.eye_height, positive_metres(), "of drivers, in 3D (default 1.2)")
+      .type_name("METRES");
   add_whole(command, "--every", sumo.every, {.low = 1, .expected = "a whole number, 1 or more"},
             "keep every Nth step (default 1)");
   command.footer(
@@ -131,14 +194,43 @@ void add_petrack(CLI::App& import, Action& action) {
   command.callback([options, &action] { action = [options] { return import_petrack_files(*options); }; });
 }
 
+void add_mesh(CLI::App& import, Action& action) {
+  const auto options = std::make_shared<MeshCommand>();
+  CLI::App& command = *import.add_subcommand("mesh", "A 3D model (OBJ, PLY, STL, glTF, 3DS) as static objects");
+  MeshImportOptions& mesh = options->mesh;
+  command.add_option("FILE", mesh.file, "the model")->required();
+  add_text(command, "--out", options->out, "a folder", "folder for scene.json and frames.jsonl")
+      .required()
+      ->type_name("DIR");
+  add_text(command, "--split", options->split, "parts, groups or whole",
+           "an object for: parts that hang together (default), each group of the file, or the whole")
+      .type_name("HOW");
+  add_positive(command, "--scale", mesh.scale, positive_metres(), "metres a unit of the file (default 1)");
+  add_numbers(command, "--orientation", options->orientation, 4, "four numbers W,X,Y,Z of magnitude at most 1e9",
+              "turns the model's axes: a quaternion (y up: 0.7071,0.7071,0,0)")
+      .type_name("W,X,Y,Z");
+  add_numbers(command, "--heading-degrees", options->heading_degrees, 1, "a number of magnitude at most 1e9",
+              "then turns it about +z, counter-clockwise")
+      .type_name("DEGREES");
+  add_numbers(command, "--move", options->move, 3, "three numbers X,Y,Z of magnitude at most 1e9",
+              "then moves it, metres")
+      .type_name("X,Y,Z");
+  add_whole(command, "--max-memory", mesh.max_memory, memory_bytes(), "refuse a model that takes more (default 4 GiB)");
+  command.footer(
+      "Example: a model of a town whose z axis points down\n"
+      "  gridcull import mesh town.3ds --orientation 0,1,0,0 --out town");
+  command.callback([options, &action] { action = [options] { return import_mesh_file(*options); }; });
+}
+
 }  // namespace
 
 void add_import_command(CLI::App& app, Action& action) {
-  CLI::App& command = *app.add_subcommand("import", "Write a world from the files of SUMO or PeTrack");
+  CLI::App& command = *app.add_subcommand("import", "Write a world from the files of SUMO or PeTrack, or a 3D model");
   command.require_subcommand(1);
   command.footer("Example:\n  gridcull import sumo --fcd fcd.xml.gz --buildings town.poly.xml --out town");
   add_sumo(command, action);
   add_petrack(command, action);
+  add_mesh(command, action);
 }
 
 }  // namespace gridcull

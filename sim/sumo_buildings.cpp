@@ -37,6 +37,17 @@ std::vector<Vec2> parse_outline(std::string_view text, const Place& place) {
   }
 }
 
+template <class Place>
+double height_of(const pugi::xml_node& node, const Place& place) {
+  const pugi::xml_attribute value = node.find_child_by_attribute("param", "key", "height").attribute("value");
+  if (!value) return 0.0;
+  const auto height = parse_number(value.value());
+  if (!height || !(*height > 0.0)) {
+    refuse(place(), "expected a height above 0, at most 1e9, found " + quoted(value.value()));
+  }
+  return *height;
+}
+
 bool meets(const std::vector<Vec2>& outline, const std::array<double, 4>& box) {
   Bounds around;
   for (const Vec2& p : outline) around.add({p.x, p.y, 0.0});
@@ -46,7 +57,7 @@ bool meets(const std::vector<Vec2>& outline, const std::array<double, 4>& box) {
 }  // namespace
 
 std::vector<SceneObject> read_sumo_buildings(const std::string& path, const std::optional<std::array<double, 4>>& box,
-                                             std::vector<std::string>& notes) {
+                                             std::vector<std::string>& notes, std::vector<double>& heights) {
   const std::string text = read_text(path);
   const auto place = [&](std::ptrdiff_t offset) {
     const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
@@ -77,6 +88,7 @@ std::vector<SceneObject> read_sumo_buildings(const std::string& path, const std:
     if (box && !meets(outline, *box)) continue;
     building->object.id = static_cast<ObjectId>(out.size());
     out.push_back(std::move(*building));
+    heights.push_back(height_of(node, where));
   }
   return out;
 }

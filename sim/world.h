@@ -61,7 +61,7 @@ class World {
   std::map<ViewerId, SceneViewer> viewers_{};
   // No viewpoint can leave the world's 1e9 m while their sum does not; both only grow.
   double farthest_object_ = 0.0, longest_offset_ = 0.0;  ///< metres
-  std::vector<std::size_t> set_places_{};  ///< in objects_, of the last frame's set
+  std::vector<std::size_t> set_places_{};                ///< in objects_, of the last frame's set
 };
 
 }  // namespace gridcull

@@ -299,3 +299,53 @@ TEST_CASE("the town of Bad Hersfeld imports and applies") {
   }
   CHECK(world.objects().size() > imported.scene.objects.size() + 300);
 }
+
+TEST_CASE("with a height the world is 3D: prisms, boxes that stand on the ground, drivers' eyes") {
+  const TemporaryFolder folder;
+  std::string polygons = buildings;
+  const std::string house = R"(shape="0,0,5 10,0,5 10,8,5 0,8,5"/>)";
+  polygons.replace(polygons.find(house), house.size(),
+                   R"(shape="0,0 10,0 10,8 0,8"><param key="height" value="12.5"/></poly>)");
+  SumoOptions options;
+  options.height = 9.0;
+  const Result result = import(options, folder, fcd, polygons);
+  const Scene& scene = result.imported.scene;
+  CHECK(scene.dimension == 3);
+  CHECK(sumo_dimension(options) == 3);
+  REQUIRE(scene.objects.size() == 2);
+  CHECK(std::get<Prism>(scene.objects[0].object.shape).height == 9.0);
+  CHECK(std::get<Prism>(scene.objects[1].object.shape).height == 12.5);
+  CHECK(scene.bounds->min == Vec3(0, -1, 0));
+  CHECK(scene.bounds->max == Vec3(111, 209, 13));
+  const Frame& first = result.frames[0];
+  CHECK(std::get<Cuboid>(first.add[0].object.shape).size == Vec3(5.0, 1.8, 1.5));
+  CHECK(first.add[0].object.pose.position == Vec3(47.5, 60, 0.75));
+  CHECK(std::get<Cuboid>(first.add[2].object.shape).size == Vec3(0.5, 0.5, 1.75));
+  REQUIRE(first.viewers.size() == 2);
+  CHECK(first.viewers[0].offset->z == doctest::Approx(0.45));
+  World world(scene);
+  for (const Frame& frame : result.frames) world.apply(frame);
+
+  polygons.replace(polygons.find("12.5"), 4, "tall");
+  CHECK(holds(refusal(ErrorCode::bad_message, [&] { import(options, folder, fcd, polygons); }),
+              "expected a height above 0, at most 1e9, found \"tall\""));
+}
+
+TEST_CASE("static objects of another scene come first, and make the world theirs") {
+  const TemporaryFolder folder;
+  SumoOptions options;
+  options.statics = folder.with("model.json", R"({"format": "gridcull.scene/1", "dimension": 3, "objects": [
+    {"id": 4, "static": true, "shape": {"type": "sphere", "radius": 2}, "position": [30, 30, 2]},
+    {"id": 9, "shape": {"type": "sphere", "radius": 2}, "position": [3, 3, 2]}], "viewers": []})");
+  const Result result = import(options, folder);
+  REQUIRE(result.imported.scene.objects.size() == 3);
+  CHECK(result.imported.scene.dimension == 3);
+  CHECK(result.imported.scene.objects[0].object.id == 4);
+  CHECK(result.imported.scene.objects[1].object.id == 5);
+  CHECK(std::get<Prism>(result.imported.scene.objects[1].object.shape).height == 10.0);
+  CHECK(result.frames[0].add[0].object.id == 7);
+  options.statics =
+      folder.with("flat.json", R"({"format": "gridcull.scene/1", "dimension": 2, "objects": [], "viewers": []})");
+  options.height = 3.0;
+  CHECK(holds(refusal(ErrorCode::usage, [&] { import(options, folder); }), "static: expected a 3D scene"));
+}

@@ -20,10 +20,11 @@ example_arguments() {
   done
 }
 
-# build_example FOLDER NAME: sets `gridcull` and `example` to the programs. GRIDCULL_PREFIX names an installed gridcull;
-# without it one is built and installed into build/prefix. GRIDCULL_EXAMPLE_BUILD: where to build, build/examples.
-build_example() {
-  local prefix=${GRIDCULL_PREFIX:-} fresh=() binary=${GRIDCULL_EXAMPLE_BUILD:-build/examples}/$2
+# build_gridcull: sets `gridcull` to the program and `prefix` to where it is installed. GRIDCULL_PREFIX names an installed
+# one; without it one is built and installed into build/prefix.
+build_gridcull() {
+  local fresh=()
+  prefix=${GRIDCULL_PREFIX:-}
   if [ -z "$prefix" ]; then
     echo "== building and installing gridcull to build/prefix"
     prefix=$PWD/build/prefix
@@ -34,6 +35,13 @@ build_example() {
     cmake --install build/release --prefix "$prefix" >/dev/null
   fi
   gridcull=$prefix/bin/gridcull
+}
+
+# build_example FOLDER NAME: the same, and sets `example` to the example's program, built against it.
+# GRIDCULL_EXAMPLE_BUILD: where to build, build/examples.
+build_example() {
+  local binary=${GRIDCULL_EXAMPLE_BUILD:-build/examples}/$2
+  build_gridcull
   echo "== building the example"
   cmake -S "$1" -B "$binary" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
   cmake --build "$binary"

@@ -143,6 +143,20 @@ gzip -c fcd.xml | head -c 60 >cut.xml.gz
 refused "FCD .gz cut in the middle" "cut.xml.gz" import sumo --fcd cut.xml.gz --out out/town
 refused "no FCD" "missing.xml" import sumo --fcd missing.xml --out out/town
 refused "no buildings" "missing.xml" import sumo --fcd fcd.xml --buildings missing.xml --out out/town
+scene flat.json ""
+refused "a 2D scene beside a height" "--static: expected a 3D scene" import sumo --fcd fcd.xml --static flat.json --height 3 --out out/town
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
+refused "no mesh" "missing.obj: cannot be read as a mesh" import mesh missing.obj --out out/m
+refused "a mesh of text" "fcd.xml: cannot be read as a mesh" import mesh fcd.xml --out out/m
+refused "a mesh in no way split" "--split: expected parts, groups or whole, found 'faces'" import mesh one.obj --split faces --out out/m
+refused "a mesh turned by nothing" "--orientation: expected a quaternion" import mesh one.obj --orientation 0,0,0,0 --out out/m
+refused "a mesh moved in the plane" "--move: expected three numbers" import mesh one.obj --move 1,2 --out out/m
+refused "a mesh above the limit" "of --max-memory" import mesh one.obj --max-memory 16 --out out/m
+scene3='{"format": "gridcull.scene/1", "dimension": 3, "objects": [{"id": 0, "static": true, "shape": %s, "position": [0, 0, 0]}], "viewers": []}'
+printf "$scene3" '{"type": "mesh", "file": "missing.obj"}' >mesh.json
+refused "a scene whose mesh is missing" "mesh.json: /objects/0/shape/file: " info mesh.json
+printf "$scene3" '{"type": "mesh", "file": "one.obj", "group": "roof"}' >mesh.json
+refused "a scene whose mesh lacks the group" "expected one of its groups .*found 'roof'" info mesh.json
 refused "a box of three" "box" import sumo --fcd fcd.xml --box 0,0,1 --out out/town
 refused "a viewer that never comes" "nobody" import sumo --fcd fcd.xml --viewers nobody --out out/town
 : >empty.txt
