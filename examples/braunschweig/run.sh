@@ -20,8 +20,8 @@ mkdir -p "$out"
 echo "== the model: 48,907 faces; its axes are east, south and down, a little turned against the net's"
 "$gridcull" import mesh "$model/bs3.3ds" --orientation 0,1,0,0 --heading-degrees 1.30 --move 660,679,0 --out "$out/model"
 echo "== SUMO's traffic"
-python3 "$SUMO_HOME/tools/randomTrips.py" --net-file "$model/bs.net.xml" --output-trip-file "$out/trips.xml" --end 300 \
-  --period 0.5 --seed 1 --min-distance 200 --validate >"$out/trips.log" 2>&1 || { cat "$out/trips.log" >&2; exit 1; }
+python3 "$SUMO_HOME/tools/randomTrips.py" --net-file "$model/bs.net.xml" --output-trip-file "$out/trips.xml" \
+  --route-file "$out/routes.xml" --end 300 --period 0.5 --seed 1 --min-distance 200 --validate >"$out/trips.log" 2>&1 || { cat "$out/trips.log" >&2; exit 1; }
 sumo --net-file "$model/bs.net.xml" --route-files "$out/trips.xml" --end 300 --step-length 0.1 --no-warnings --no-step-log \
   --ignore-route-errors --fcd-output "$out/fcd.xml" --device.fcd.begin $((300 - seconds)) >"$out/sumo.log" 2>&1 ||
   { cat "$out/sumo.log" >&2; exit 1; }
