@@ -58,12 +58,26 @@ Stretch ViewLimits::part(const Vec3& ray) const {
   return {near_ / depth, std::min(range_, far_ / depth)};
 }
 
+namespace {
+
+/// A closed mesh whose surface the eye touches hides from there on what the ray goes into: the tie is passed, and an
+/// odd number of crossings lies ahead.
+bool goes_inside(const Solid& solid, const std::vector<Stretch>& crossings, double tie) {
+  if (!solid.closed) return false;
+  const auto touched = [&](const Stretch& s) { return std::fabs(s.begin) <= tie; };
+  const auto ahead = std::count_if(crossings.begin(), crossings.end(), [&](const Stretch& s) { return s.begin > tie; });
+  return ahead % 2 != 0 && std::any_of(crossings.begin(), crossings.end(), touched);
+}
+
+}  // namespace
+
 Along look_along(const ViewLimits& view, const Solid& solid, const Vec3& ray, std::vector<Stretch>& scratch) {
   scratch.clear();
   add_stretches(solid, view.eye(), ray, scratch);
   const Stretch part = view.part(ray);
   const bool thin = solid.kind == SolidKind::faces;
   Along along{infinity, infinity};
+  if (thin && solid.occluder && goes_inside(solid, scratch, view.tie_at(0.0))) along.entry = 0.0;
   for (const Stretch& s : scratch) {
     // A thin face that the eye touches is not crossed by the open segment; a solid hides by its inside only.
     if (s.end <= (thin ? view.tie_at(0.0) : 0.0)) continue;

@@ -3,10 +3,12 @@
 // Claim: a cell is opaque only if it lies in the open interior. The cells of a row between two touched ones are joined,
 // and no triangle meets any of them (each was judged grown by the margin), so they lie all inside or all outside;
 // the side of the first one's centre is exact (core/mesh.h). The ray that decides it runs along the row, so it meets no
-// triangles but those whose box in y and z holds the row's middle line.
+// triangles but those that it meets in the plane of y and z: at the row's middle height they reach from y to y around
+// it, found with a cell to spare on both sides.
 //
-// Cost: an entry for each row that a triangle's box meets; in each row a test of its triangles for each gap.
+// Cost: an entry for each row that a triangle meets, and a few; in each row a test of its triangles for each gap.
 #include <algorithm>
+#include <array>
 
 #include "gridcull/core/mesh.h"
 #include "gridcull/grid/cover_kernels.h"
@@ -25,26 +27,43 @@ Range cells_between(const Lattice& lattice, int axis, double low, double high) {
   return {std::max<std::int64_t>(lattice.index(axis, low), 0), std::min(lattice.index(axis, high), count - 1)};
 }
 
+Vec3 centre_of(const Lattice& lattice, const Cell& c) {
+  return {0.5 * (lattice.boundary(0, c.x) + lattice.boundary(0, c.x + 1)),
+          0.5 * (lattice.boundary(1, c.y) + lattice.boundary(1, c.y + 1)),
+          0.5 * (lattice.boundary(2, c.z) + lattice.boundary(2, c.z + 1))};
+}
+
+/// Along y, where the triangle meets the level z; empty where it does not.
+Bounds at_level(const std::array<Vec3, 3>& t, double z) {
+  Bounds out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &a = t[k], &b = t[(k + 1) % 3];
+    if (a.z == z) out.add(a);
+    if ((a.z < z) == (b.z < z)) continue;
+    const double share = std::clamp((z - a.z) / (b.z - a.z), 0.0, 1.0);
+    out.add(a + share * (b - a));
+  }
+  return out;
+}
+
 void add_rows(const Lattice& lattice, const std::vector<Vec3>& vertices, std::span<const Triangle> triangles,
               std::vector<MeshRow>& rows) {
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     Bounds box;
     for (const std::uint32_t corner : triangles[i]) box.add(vertices[corner]);
-    const Range ys = cells_between(lattice, 1, box.min.y, box.max.y);
+    const std::array<Vec3, 3> t{vertices[triangles[i][0]], vertices[triangles[i][1]], vertices[triangles[i][2]]};
     const Range zs = cells_between(lattice, 2, box.min.z, box.max.z);
     for (std::int64_t z = zs.first; z <= zs.last; ++z) {
+      const Bounds cut = at_level(t, centre_of(lattice, {0, 0, z}).z);
+      if (cut.empty()) continue;
+      // A cell more on either side than any rounding of the cut could need.
+      const Range ys = cells_between(lattice, 1, cut.min.y - lattice.cell(), cut.max.y + lattice.cell());
       for (std::int64_t y = ys.first; y <= ys.last; ++y) rows.push_back({z * lattice.cells().y + y, i});
     }
   }
   std::sort(rows.begin(), rows.end(), [](const MeshRow& a, const MeshRow& b) {
     return a.row != b.row ? a.row < b.row : a.triangle < b.triangle;
   });
-}
-
-Vec3 centre_of(const Lattice& lattice, const Cell& c) {
-  return {0.5 * (lattice.boundary(0, c.x) + lattice.boundary(0, c.x + 1)),
-          0.5 * (lattice.boundary(1, c.y) + lattice.boundary(1, c.y + 1)),
-          0.5 * (lattice.boundary(2, c.z) + lattice.boundary(2, c.z + 1))};
 }
 
 /// Walks one row: says of each of its cells in turn whether a triangle touches it.

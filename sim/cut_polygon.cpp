@@ -48,11 +48,30 @@ bool is_ear(const Flat& at, const std::vector<std::uint32_t>& polygon, std::size
   });
 }
 
+/// No corner turns right, and none is so many that the rest would take long: then a fan will do.
+bool is_simple(const Flat& at, const std::vector<std::uint32_t>& polygon) {
+  constexpr std::size_t too_many = 2000;
+  const std::size_t n = polygon.size();
+  if (n > too_many) return true;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (orientation(at(polygon[i]), at(polygon[(i + 1) % n]), at(polygon[(i + 2) % n])) <= 0) return false;
+  }
+  // A star turns left everywhere too: the last triangles of the fan would turn right.
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    if (orientation(at(polygon[0]), at(polygon[i]), at(polygon[i + 1])) <= 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void cut_polygon(std::span<const Vec3> vertices, std::vector<std::uint32_t> polygon, std::vector<Triangle>& out) {
   if (polygon.size() < 3) return;
   const Flat at(vertices, normal_of(vertices, polygon));
+  if (is_simple(at, polygon)) {
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) out.push_back({polygon[0], polygon[i], polygon[i + 1]});
+    return;
+  }
   while (polygon.size() > 3) {
     std::size_t ear = 0;
     while (ear < polygon.size() && !is_ear(at, polygon, ear)) ++ear;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gridcull/core/bounds.h"
+#include "gridcull/core/error.h"
 #include "gridcull/sim/import_parts.h"
 #include "gridcull/sim/scene_json.h"
 
@@ -41,6 +42,20 @@ std::string note_of(std::size_t open, std::size_t all, const MeshGroup& worst) {
   return text + ") in the file";
 }
 
+void check_place(const SceneObject& object, const std::string& file) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ErrorCode::usage, file + ": " + quoted(object.name) + ", scaled and moved: " + why);
+  };
+  try {
+    validate(object.object.shape);
+  } catch (const Error& fault) {
+    refuse(fault.what());
+  }
+  const double most = 1e9 - reach_of(object.object.shape);
+  const Vec3 p = glm::abs(object.object.pose.position);
+  if (!(p.x <= most && p.y <= most && p.z <= most)) refuse("expected coordinates of magnitude at most 1e9");
+}
+
 /// Outward to whole metres.
 Bounds whole_metres_3d(const Bounds& box) {
   return {glm::floor(box.min), glm::max(glm::ceil(box.max), glm::floor(box.min) + 1.0)};
@@ -57,6 +72,7 @@ Imported import_mesh(const MeshImportOptions& options) {
   const MeshGroup* worst = nullptr;
   for (const MeshGroup& piece : pieces) {
     SceneObject object = object_of(piece, options);
+    check_place(object, options.file);
     object.object.id = static_cast<ObjectId>(out.scene.objects.size());
     for (const Vec3& p : world_vertices(object.object.shape, object.object.pose)) box.add(p);
     out.scene.objects.push_back(std::move(object));

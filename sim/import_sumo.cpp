@@ -15,6 +15,9 @@
 namespace gridcull {
 namespace {
 
+/// Buildings and movers get ids above those of static objects.
+constexpr ObjectId most_static_id = 1'000'000'000;
+
 void check_positive(double value, const char* what) {
   if (value > 0.0 && value <= 1e9) return;
   std::string text = std::string(what) + ": expected a number above 0 and at most 1e9, found ";
@@ -57,7 +60,12 @@ class Import {
     ObjectId next = 0;
     for (SceneObject& object : statics_.objects) {
       if (!object.object.is_static) continue;
+      if (object.object.id >= most_static_id) {
+        throw Error(ErrorCode::usage, "static: expected ids below " + std::to_string(most_static_id) + ", found " +
+                                          std::to_string(object.object.id));
+      }
       next = std::max(next, object.object.id + 1);
+      object.mesh.reset();  // its file is named relative to that scene: the triangles themselves go along
       out.scene.objects.push_back(object);
     }
     if (!options_.buildings.empty()) {

@@ -1,18 +1,26 @@
 #include "gridcull/sim/mesh_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <numeric>
 #include <set>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
 
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/error.h"
 #include "gridcull/sim/cut_polygon.h"
 
 #if GRIDCULL_HAS_ASSIMP
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #endif
@@ -72,15 +80,78 @@ std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + (1 <
                                     megabytes(max_memory) + " of --max-memory");
 }
 
-/// assimp 5.2 never ends on a PLY whose header has no end.
-void check_ply(const std::string& path) {
+/// A header's line in small letters, without blanks around it.
+bool header_line(std::istream& in, std::string& out) {
+  if (!std::getline(in, out) || out.size() > 4096) return false;
+  const auto blank = [](unsigned char c) { return std::isspace(c) != 0; };
+  out.erase(std::find_if_not(out.rbegin(), out.rend(), blank).base(), out.end());
+  out.erase(out.begin(), std::find_if_not(out.begin(), out.end(), blank));
+  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
+  return true;
+}
+
+/// assimp 5.2 never ends on a PLY whose header has no end, nor on one that announces more than there is.
+void check_ply(const std::string& path, std::uint64_t size) {
   std::ifstream in(path, std::ios::binary);
   std::string line;
-  if (!std::getline(in, line) || line.substr(0, 3) != "ply") return;
-  for (int lines = 0; lines < 10000 && std::getline(in, line); ++lines) {
-    if (line.starts_with("end_header")) return;
+  bool is_ply = false;
+  for (int lines = 0; lines < 10000 && header_line(in, line); ++lines) {
+    if (line.empty()) continue;
+    if (!is_ply && !line.starts_with("ply")) return;
+    is_ply = true;
+    if (line == "end_header") return;
+    unsigned long long count = 0;
+    if (std::sscanf(line.c_str(), "element %*s %llu", &count) == 1 && count > size) {
+      throw Error(ErrorCode::bad_scene, path + ": cannot be read as a mesh: a PLY of " + std::to_string(size) +
+                                            " bytes announces " + std::to_string(count) + " elements");
+    }
   }
+  if (!is_ply) return;
   throw Error(ErrorCode::bad_scene, path + ": cannot be read as a mesh: expected a PLY header that ends in end_header");
+}
+
+/// The JSON of a glTF, text or binary; nothing where it is neither.
+nlohmann::json gltf_json(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::array<char, 20> head{};
+  in.read(head.data(), head.size());
+  if (in && std::string_view(head.data(), 4) == "glTF") {
+    std::uint32_t length = 0;  // of the first chunk
+    std::memcpy(&length, head.data() + 12, 4);
+    std::string text(std::min<std::uint64_t>(length, std::filesystem::file_size(path)), ' ');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    return nlohmann::json::parse(text, nullptr, false);
+  }
+  if (std::filesystem::path(path).extension() != ".gltf") return nlohmann::json::value_t::discarded;
+  return nlohmann::json::parse(std::ifstream(path), nullptr, false);
+}
+
+/// assimp walks a glTF's nodes by calls within calls, and those with two parents once for each: nodes have to be a
+/// forest, and a low one.
+void check_gltf(const std::string& path) {
+  constexpr std::size_t deepest = 500;
+  const nlohmann::json json = gltf_json(path);
+  if (!json.is_object() || !json.contains("nodes") || !json["nodes"].is_array()) return;
+  const nlohmann::json& nodes = json["nodes"];
+  std::vector<std::size_t> parent(nodes.size(), nodes.size());
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ErrorCode::bad_scene, path + ": cannot be read as a mesh: " + why);
+  };
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!nodes[i].is_object() || !nodes[i].contains("children") || !nodes[i]["children"].is_array()) continue;
+    for (const nlohmann::json& child : nodes[i]["children"]) {
+      if (!child.is_number_unsigned() || child.get<std::uint64_t>() >= nodes.size()) continue;
+      std::size_t& above = parent[child.get<std::size_t>()];
+      if (above != nodes.size()) refuse("node " + child.dump() + " has more than one parent");
+      above = i;
+    }
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::size_t depth = 0;
+    for (std::size_t at = i; at != nodes.size(); at = parent[at]) {
+      if (++depth > deepest) refuse("its nodes are nested deeper than " + std::to_string(deepest));
+    }
+  }
 }
 
 void check_file(const std::string& path, std::uint64_t max_memory) {
@@ -91,18 +162,43 @@ void check_file(const std::string& path, std::uint64_t max_memory) {
   const std::uint64_t size = std::filesystem::file_size(path, fault);
   // Text and bytes alike grow when they are unpacked into triangles.
   if (!fault && 4 * size > max_memory) refuse_size(path, std::to_string(size) + " bytes", 4 * size, max_memory);
-  check_ply(path);
+  check_ply(path, fault ? 0 : size);
+  check_gltf(path);
 }
 
 #if GRIDCULL_HAS_ASSIMP
 
+/// What a model names beside itself is opened only where it is a plain file (a pipe would be waited for), and materials
+/// not at all.
+class PlainFiles final : public Assimp::DefaultIOSystem {
+ public:
+  bool Exists(const char* file) const override {
+    std::error_code fault;
+    const std::filesystem::path path(file);
+    return path.extension() != ".mtl" && std::filesystem::is_regular_file(path, fault);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return Exists(file) ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+};
+
+/// A name for people and files: bytes that are no plain characters of ASCII become '?', others stay.
+std::string cleaned(const char* text) {
+  std::string out(text);
+  for (char& c : out) {
+    if (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126) c = '?';
+  }
+  return out;
+}
+
 class Reader {
  public:
-  Reader(const std::string& path, std::uint64_t max_memory) : path_(path), max_memory_(max_memory) {}
+  Reader(const std::string& path, std::uint64_t max_memory) : path_(path), max_memory_(max_memory) {
+    importer_.SetIOHandler(new PlainFiles);  // which it then owns
+  }
 
   std::vector<MeshGroup> read() {
     const aiScene* scene = open();
-    check_size(*scene);
     add(*scene, *scene->mRootNode, aiMatrix4x4());
     if (groups_.empty()) throw Error(ErrorCode::bad_scene, path_ + ": expected at least one triangle, found none");
     return std::move(groups_);
@@ -127,15 +223,14 @@ class Reader {
   }
 
   static std::string one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text.empty() ? "unknown format" : text.substr(0, 200);
+    return text.empty() ? "unknown format" : cleaned(text.substr(0, 200).c_str());
   }
 
-  void check_size(const aiScene& scene) const {
-    std::uint64_t triangles = 0;
-    for (unsigned i = 0; i < scene.mNumMeshes; ++i) triangles += scene.mMeshes[i]->mNumFaces;
-    const std::uint64_t bytes = triangles * bytes_a_triangle;
-    if (bytes > max_memory_) refuse_size(path_, std::to_string(triangles) + " triangles", bytes, max_memory_);
+  /// Meshes count as often as nodes name them.
+  void count(const aiMesh& mesh) {
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) triangles_ += std::max(2u, mesh.mFaces[i].mNumIndices) - 2;
+    const std::uint64_t bytes = triangles_ * bytes_a_triangle;
+    if (bytes > max_memory_) refuse_size(path_, std::to_string(triangles_) + " triangles", bytes, max_memory_);
   }
 
   void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above) {
@@ -144,14 +239,16 @@ class Reader {
     for (unsigned i = 0; i < node.mNumMeshes; ++i) add(*scene.mMeshes[node.mMeshes[i]], place, group.faces);
     if (!group.faces.triangles.empty()) {
       finish(group);
-      const std::string name = node.mName.C_Str();
-      group.name = unused(!name.empty() || node.mNumMeshes != 1 ? name : scene.mMeshes[node.mMeshes[0]]->mName.C_Str());
+      const std::string name = cleaned(node.mName.C_Str());
+      group.name =
+          unused(!name.empty() || node.mNumMeshes != 1 ? name : cleaned(scene.mMeshes[node.mMeshes[0]]->mName.C_Str()));
       if (!group.faces.triangles.empty()) groups_.push_back(std::move(group));
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) add(scene, *node.mChildren[i], place);
   }
 
-  void add(const aiMesh& mesh, const aiMatrix4x4& place, Faces& out) const {
+  void add(const aiMesh& mesh, const aiMatrix4x4& place, Faces& out) {
+    count(mesh);
     const auto first = static_cast<std::uint32_t>(out.vertices.size());
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D at = place * mesh.mVertices[i];
@@ -176,9 +273,11 @@ class Reader {
   }
 
   std::string unused(const std::string& wanted) {
-    std::string name = wanted.empty() ? "mesh" : wanted;
-    for (int i = 2; !names_.insert(name).second; ++i)
-      name = (wanted.empty() ? "mesh" : wanted) + "#" + std::to_string(i);
+    const std::string base = wanted.empty() ? "mesh" : wanted;
+    std::string name = base;
+    for (std::size_t& next = numbers_[base]; !names_.insert(name).second;) {
+      name = base + "#" + std::to_string(next = std::max<std::size_t>(next + 1, 2));
+    }
     return name;
   }
 
@@ -187,6 +286,8 @@ class Reader {
   Assimp::Importer importer_{};
   std::vector<MeshGroup> groups_{};
   std::set<std::string> names_{};
+  std::map<std::string, std::size_t> numbers_{};  ///< last number given to a name
+  std::uint64_t triangles_ = 0;                   ///< so far, of all nodes
 };
 
 #endif

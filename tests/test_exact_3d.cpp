@@ -207,3 +207,27 @@ TEST_CASE("exact 3d: impossible requests are refused") {
   CHECK_THROWS_AS(rays.visible(view), Error);
   CHECK_FALSE(rays.confirm(View{}, 7, {1, 0, 0}));
 }
+
+TEST_CASE("a closed mesh hides what is in it from a viewer on its face, as a box does") {
+  Faces cube{{}, {}, true};
+  for (int i = 0; i < 8; ++i) cube.vertices.emplace_back((i & 1) ? 6 : -6, (i & 2) ? 6 : -6, (i & 4) ? 6 : -6);
+  for (const auto& [a, b, c, d] : std::vector<std::array<std::uint32_t, 4>>{
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    cube.triangles.push_back({a, b, c});
+    cube.triangles.push_back({a, c, d});
+  }
+  for (const double away : {0.0, 1e3, 1e6}) {
+    const Vec3 middle(away, 0.5 * away, 0.0);
+    for (const Shape& shape : {Shape(cube), Shape(Cuboid{{12, 12, 12}})}) {
+      const std::vector<Object> world{{.id = 1, .shape = shape, .pose = {middle}},
+                                      {.id = 2, .shape = Sphere{1.0}, .pose = {middle + Vec3(0.3, 0.2, 0.1)}}};
+      const View view{.viewer = 1, .pose = {middle + Vec3(-6.0, 0.7, 1.3)}};
+      const ExactRays rays(world, 64);
+      for (const ObjectId id : rays.visible(view).visible) {
+        const ExactAnswer seen = rays.visible(view);
+        const auto at = std::find(seen.visible.begin(), seen.visible.end(), id) - seen.visible.begin();
+        if (id == 2) CHECK_FALSE(rays.confirm(view, 2, seen.witness[static_cast<std::size_t>(at)]));
+      }
+    }
+  }
+}

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include "gridcull/core/view_volume.h"
 #include "gridcull/sim/cut_polygon.h"
@@ -197,6 +198,24 @@ TEST_CASE("bad meshes are refused in one line" * needs_assimp) {
   CHECK(holds(refusal(ErrorCode::bad_scene, read("far.obj", "v 0 0 0\nv 1e12 0 0\nv 0 1 0\nf 1 2 3\n")),
               "expected coordinates of magnitude at most 1e9"));
   CHECK(holds(refusal(ErrorCode::bad_scene, read("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n")), "nan.obj: "));
+  const std::string header = "format ascii 1.0\nelement vertex 3\nproperty float x\n";
+  for (const char* start : {"PLY\n", "\n ply\n"}) {
+    CHECK(holds(refusal(ErrorCode::bad_scene, read("head.ply", start + header)), "expected a PLY header that ends"));
+    CHECK(holds(refusal(ErrorCode::bad_scene, read("head.ply", start + header + "end_headerx\n")),
+                "expected a PLY header"));
+  }
+  CHECK(holds(
+      refusal(ErrorCode::bad_scene, read("many.ply", "ply\nformat ascii 1.0\nelement face 400000000\nend_header\n")),
+      "announces 400000000 elements"));
+  REQUIRE(mkfifo(folder.file("pipe.mtl").c_str(), 0600) == 0);
+  CHECK_NOTHROW(read("pipe.obj", "mtllib pipe.mtl\n" + two_groups)());
+  CHECK(refusal(ErrorCode::io, [&] { read_mesh(folder.file("pipe.mtl")); }) != "");
+  std::string deep = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)";
+  for (int i = 1; i < 20000; ++i) deep += "{\"children\": [" + std::to_string(i) + "]},";
+  CHECK(holds(refusal(ErrorCode::bad_scene, read("deep.gltf", deep + "{}]}")), "nested deeper than 500"));
+  CHECK(holds(refusal(ErrorCode::bad_scene,
+                      read("twice.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"children": [1, 1]}, {}]})")),
+              "node 1 has more than one parent"));
   CHECK(holds(refusal(ErrorCode::limit, read("big.obj", two_groups, 4096)), "5 triangles would take about 1 MiB"));
   CHECK(holds(refusal(ErrorCode::limit, read("huge.obj", two_groups, 64)), " bytes would take about"));
   for (const std::string& text : {two_groups, stl, ply, gltf}) {
