@@ -20,6 +20,9 @@ GridEngine::GridEngine(const GridOptions& options) {
     throw Error(ErrorCode::usage, "resolution: expected 8 .. 8192, found " + std::to_string(options.resolution));
   }
   state_ = std::make_unique<State>(options);
+  if (options.static_cells && !options.static_cells->fit(state_->world.lattice)) {
+    throw Error(ErrorCode::bad_scene, "static cells: expected those of this lattice, found another's");
+  }
 }
 
 GridEngine::~GridEngine() = default;
@@ -115,7 +118,7 @@ MemoryUse GridEngine::memory() const {
   const State& s = *state_;
   MemoryUse use;
   use.matrices = s.world.matrix.matrix_bytes() + s.world.tbv.matrix_bytes() + s.world.hollow.matrix_bytes() +
-                 s.world.seen_in.size() * sizeof(std::uint32_t);
+                 s.world.seen_in.bytes();
   use.entries = s.world.matrix.entry_bytes() + s.world.tbv.entry_bytes() + s.world.hollow.entry_bytes();
   use.objects = s.world.objects.bytes() + s.expiries.bytes();
   for (Slot slot = 0; slot < s.world.objects.size(); ++slot) {

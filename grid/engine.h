@@ -10,6 +10,8 @@
 #include "gridcull/core/culler.h"
 #include "gridcull/core/drawing.h"
 #include "gridcull/grid/lattice.h"
+#include "gridcull/grid/static_cells.h"
+#include "gridcull/grid/static_store.h"
 
 namespace gridcull {
 
@@ -40,6 +42,12 @@ struct GridOptions {
   /// `silhouette` in 3D: the volume that objects are tested with, in their local axes. None, the default: a ball as
   /// itself; a box as itself; a prism or a hull of few corners as its convex hull; anything else as its box.
   std::optional<BoundKind> bound{};
+  /// Where static objects' cells are kept. With StoreKind::openvdb `max_memory` bounds a viewer's window and not the
+  /// whole lattice, whose matrices then take room only where something is.
+  StoreKind store = StoreKind::dense;
+  /// Cells that were discretised before, of static objects that may be added; those that it does not hold, or holds
+  /// otherwise, are discretised. Let go once used. Must fit the lattice.
+  std::shared_ptr<const StaticCells> static_cells{};
 };
 
 const MethodInfo& grid_engine_info(Hiding hiding);
@@ -57,7 +65,8 @@ struct MemoryUse {
 /// thread at a time (it runs threads of its own inside query()).
 class GridEngine final : public Culler {
  public:
-  /// Throws Error(bad_scene) or Error(limit) as Lattice does, Error(usage) for threads out of range.
+  /// Throws Error(bad_scene) or Error(limit) as Lattice does, Error(bad_scene) for static cells of another lattice, and
+  /// Error(usage) for threads out of range or a store that is not there.
   explicit GridEngine(const GridOptions& options);
   ~GridEngine() override;
 

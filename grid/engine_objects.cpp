@@ -15,7 +15,9 @@ namespace {
 
 constexpr Slot ahead = 6;
 
-Lattice make_lattice(const GridOptions& o) { return {o.dimension, o.bounds, o.cell, o.max_memory}; }
+Lattice make_lattice(const GridOptions& o) {
+  return {o.dimension, o.bounds, o.cell, o.max_memory, o.store == StoreKind::dense ? Room::whole : Room::where_needed};
+}
 
 std::unique_ptr<ViewAnswerer> make_answerer(const GridOptions& o) {
   if (o.hiding == Hiding::voxel) return std::make_unique<ViewTask>();
@@ -26,7 +28,8 @@ std::unique_ptr<ViewAnswerer> make_answerer(const GridOptions& o) {
 }  // namespace
 
 GridEngine::State::State(const GridOptions& o)
-    : options(o), world(make_lattice(o), o.hiding == Hiding::silhouette, o.bound), terms(o.cell) {
+    : options(o), world(make_lattice(o), o.hiding == Hiding::silhouette, o.bound, o.store, o.max_memory),
+      terms(o.cell) {
   for (int i = 0; i < o.threads; ++i) tasks.push_back(make_answerer(o));
 }
 
@@ -60,6 +63,7 @@ void GridEngine::State::add(const Object& object) {
   state.is_static = object.is_static;
   state.max_speed = object.max_speed ? *object.max_speed : -1.0;
   if (state.max_speed > 0.0) state.term = static_cast<float>(terms.first(state.max_speed));
+  state.known = object.is_static && options.static_cells && options.static_cells->find(object) != nullptr;
   state.place = Place::waiting;
   waiting.push_back(slot);
   const std::size_t slots = world.objects.size();
@@ -124,6 +128,7 @@ void GridEngine::State::move(Slot slot, const Pose& pose) {
   }
   note_pushed(slot, pose.position);
   state.pose = pose;
+  state.known = false;
   if (state.place == Place::hidden) return;  // settled when the frame's time is known
   if (follows_at_once() && state.place == Place::active && !state.stale &&
       world.silhouettes->follow_own(slot, state.pose)) {
@@ -157,6 +162,18 @@ void GridEngine::State::set_outside(Slot slot, bool outside) {
   world.outside.pop_back();
 }
 
+// Known cells are used once, when the object is first entered: later changes are discretised.
+void GridEngine::State::find_cells(Slot slot) {
+  ObjectState& state = world.objects[slot];
+  if (!state.known) return state.shape->cover(world.lattice, state.pose, scratch, cover_buffer);
+  const StaticCells& cells = *options.static_cells;
+  const StaticCells::Member& member = *cells.find_id(state.id);
+  const auto bricks = cells.of(member);
+  cover_buffer.bricks.assign(bricks.begin(), bricks.end());
+  cover_buffer.outside = member.outside;
+  state.known = false;
+}
+
 void GridEngine::State::cover(Slot slot) {
   ObjectState& state = world.objects[slot];
   state.stale = false;
@@ -166,7 +183,7 @@ void GridEngine::State::cover(Slot slot) {
     set_outside(slot, !world.silhouettes->enter(slot, world.silhouettes->ball_at(slot, state.pose)));
     return;
   }
-  state.shape->cover(world.lattice, state.pose, scratch, cover_buffer);
+  find_cells(slot);
   world.matrix.update(slot, cover_buffer, state.occluder, state.is_static, state.entries);
   set_outside(slot, cover_buffer.outside);
 }

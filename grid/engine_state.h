@@ -56,6 +56,8 @@ struct GridEngine::State {
   void mark_stale(Slot slot);
   /// Discretises the object in O and I at its present pose.
   void cover(Slot slot);
+  /// The object's cells at its present pose, into cover_buffer.
+  void find_cells(Slot slot);
   void activate(Slot slot);
   void list_active(Slot slot);
   void unlist_active(Slot slot);

@@ -19,16 +19,18 @@ double node_side(const Lattice& lattice) { return (lattice.dimension() == 2 ? 16
 
 }  // namespace
 
-GridWorld::GridWorld(const Lattice& cells, bool with_silhouettes, std::optional<BoundKind> bound)
+GridWorld::GridWorld(const Lattice& cells, bool with_silhouettes, std::optional<BoundKind> bound, StoreKind store,
+                     std::uint64_t memory)
     : lattice(cells),
       silhouettes(with_silhouettes
                       ? std::make_unique<SilhouetteWorld>(cells.dimension(), cells.box(), node_side(cells), bound)
                       : nullptr),
       voxels(with_silhouettes ? one_cell(cells) : cells),
-      matrix(voxels),
+      matrix(voxels, make_static_store(store, voxels)),
       tbv(voxels),
       hollow(voxels),
-      seen_in(tbv.block_count(), 0) {}
+      seen_in(tbv.block_count()),
+      max_memory(memory) {}
 
 void check_pose(const Pose& pose, ObjectId object, int dimension) {
   const Vec3& p = pose.position;

@@ -21,7 +21,9 @@ namespace gridcull {
 struct GridWorld {
   /// `silhouettes`: objects go into the loose index, the matrices stay as small as can be.
   /// `bound`: what those test 3D objects with.
-  GridWorld(const Lattice& cells, bool with_silhouettes, std::optional<BoundKind> bound = {});
+  /// `memory`: bytes that a viewer's window may take.
+  GridWorld(const Lattice& cells, bool with_silhouettes, std::optional<BoundKind> bound, StoreKind store,
+            std::uint64_t memory);
 
   Lattice lattice;
   std::unique_ptr<SilhouetteWorld> silhouettes;  // method `silhouette`; then I, O and T stay empty
@@ -34,8 +36,9 @@ struct GridWorld {
   std::vector<Slot> outside;
 
   /// Per block of T: the last frame (low 32 bits) in which somebody saw a cell of it.
-  std::vector<std::uint32_t> seen_in;
+  LazyArray<std::uint32_t> seen_in;
 
+  std::uint64_t max_memory;
   PositionSource* source = nullptr;
   std::uint64_t frame = 1;  ///< counts queries from 2, so that nothing counts as seen before the first
   std::uint64_t positions_read = 0;

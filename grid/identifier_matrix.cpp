@@ -2,10 +2,8 @@
 
 namespace gridcull {
 
-IdentifierMatrix::IdentifierMatrix(const Lattice& lattice)
-    : opaque_(lattice.brick_count(), 0),
-      opaque_static_(lattice.brick_count(), 0),
-      heads_(lattice.brick_count(), none) {}
+IdentifierMatrix::IdentifierMatrix(const Lattice& lattice, std::unique_ptr<StaticStore> statics)
+    : opaque_(lattice.brick_count()), heads_(lattice.brick_count()), statics_(std::move(statics)) {}
 
 std::uint32_t IdentifierMatrix::allocate() {
   if (free_ != none) {
@@ -15,30 +13,31 @@ std::uint32_t IdentifierMatrix::allocate() {
   }
   if (entries_.size() == entries_.capacity()) entries_.reserve(entries_.size() + entries_.size() / 8 + 64);
   entries_.push_back({});
-  static_.push_back(false);
   return static_cast<std::uint32_t>(entries_.size() - 1);
 }
 
-void IdentifierMatrix::unlink(std::uint32_t index) {
-  std::uint32_t* link = &heads_[entries_[index].brick];
-  while (*link != index) link = &entries_[*link].next_in_brick;
-  *link = entries_[index].next_in_brick;
+void IdentifierMatrix::unlink(std::uint32_t index, bool is_static) {
+  const Entry& entry = entries_[index];
+  std::uint32_t before = first(entry.brick, is_static);
+  if (before == index) return set_first(entry.brick, is_static, entry.next_in_brick);
+  while (entries_[before].next_in_brick != index) before = entries_[before].next_in_brick;
+  entries_[before].next_in_brick = entry.next_in_brick;
 }
 
 void IdentifierMatrix::change_opaque(std::uint32_t index, std::uint64_t opaque, bool is_static) {
   Entry& entry = entries_[index];
   const std::uint64_t lost = entry.opaque & ~opaque;
   entry.opaque = opaque;
-  std::uint64_t& word = is_static ? opaque_static_[entry.brick] : opaque_[entry.brick];
+  std::uint64_t word = 0;
   if (lost == 0) {
-    word |= opaque;
-    return;
+    word = (is_static ? statics_->opaque(entry.brick) : opaque_[entry.brick]) | opaque;
+  } else {
+    // Another object may fill a lost cell too: gather the brick's owners again.
+    for (std::uint32_t i = first(entry.brick, is_static); i != none; i = entries_[i].next_in_brick) {
+      word |= entries_[i].opaque;
+    }
   }
-  // Another object may fill a lost cell too: gather the brick's owners again.
-  word = 0;
-  for (std::uint32_t i = heads_[entry.brick]; i != none; i = entries_[i].next_in_brick) {
-    if (static_[i] == is_static) word |= entries_[i].opaque;
-  }
+  set_opaque(entry.brick, is_static, word);
 }
 
 void IdentifierMatrix::update(Slot slot, const Cover& cover, bool occludes, bool is_static, std::uint32_t& head) {
@@ -50,8 +49,9 @@ void IdentifierMatrix::update(Slot slot, const Cover& cover, bool occludes, bool
     last = index;
   };
   const auto drop = [&](std::uint32_t index) {
-    change_opaque(index, 0, is_static);
-    unlink(index);
+    if (entries_[index].opaque != 0) change_opaque(index, 0, is_static);
+    unlink(index, is_static);
+    static_written_ += is_static;
     entries_[index].next_of_object = free_;
     free_ = index;
   };
@@ -66,14 +66,14 @@ void IdentifierMatrix::update(Slot slot, const Cover& cover, bool occludes, bool
       old = entries_[old].next_of_object;
     } else {
       index = allocate();
-      entries_[index] = {0, 0, slot, brick.brick, heads_[brick.brick], none};
-      static_[index] = is_static;
-      heads_[brick.brick] = index;
+      entries_[index] = {0, 0, slot, brick.brick, first(brick.brick, is_static), none};
+      set_first(brick.brick, is_static, index);
     }
     append(index);
     entries_[index].touched = brick.touched;
     const std::uint64_t opaque = occludes ? brick.opaque : 0;
     if (entries_[index].opaque != opaque) change_opaque(index, opaque, is_static);
+    static_written_ += is_static;
   }
   while (old != none) {
     const std::uint32_t next = entries_[old].next_of_object;
@@ -84,9 +84,5 @@ void IdentifierMatrix::update(Slot slot, const Cover& cover, bool occludes, bool
 }
 
 void IdentifierMatrix::remove(bool is_static, std::uint32_t& head) { update(none, Cover{}, false, is_static, head); }
-
-std::uint64_t IdentifierMatrix::matrix_bytes() const {
-  return opaque_.size() * (2 * sizeof(std::uint64_t) + sizeof(std::uint32_t));
-}
 
 }  // namespace gridcull

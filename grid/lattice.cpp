@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 #include <glm/common.hpp>
@@ -72,7 +73,7 @@ double cell_that_fits(int dimension, const Vec3& extent, double cell, std::uint6
 
 }  // namespace
 
-Lattice::Lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t max_memory)
+Lattice::Lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t max_memory, Room room)
     : dimension_(dimension), cell_(cell), origin_(bounds.min) {
   const Vec3 extent = bounds.size();
   if (bounds.empty() || !std::isfinite(extent.x) || !std::isfinite(extent.y) || !std::isfinite(extent.z) ||
@@ -83,6 +84,7 @@ Lattice::Lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t
     throw Error(ErrorCode::bad_scene, "grid.cell: expected a size above 0 and at most 1e9, found " + text(cell));
   }
   const Vec3 along = count(dimension, extent, cell);
+  if (room == Room::where_needed) max_memory = std::numeric_limits<std::uint64_t>::max();
   if (!fits(dimension, along, max_memory)) refuse(dimension, extent, cell, max_memory);
   const Vec3 far = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
   if (cell < 0x1p-40 * std::fmax(far.x, std::fmax(far.y, far.z))) {
@@ -143,13 +145,24 @@ std::uint64_t Lattice::brick_cells(std::size_t brick) const {
   return bits;
 }
 
-std::uint64_t Lattice::bytes_for(int dimension, const Cell& cells) {
-  const int s = dimension == 2 ? brick_shift_2d : brick_shift_3d;
+namespace {
+
+std::uint64_t bricks_for(int dimension, const Cell& cells) {
+  const int s = dimension == 2 ? Lattice::brick_shift_2d : Lattice::brick_shift_3d;
   const auto along = [&](std::int64_t n) { return static_cast<std::uint64_t>((n + (1 << s) - 1) >> s); };
-  const std::uint64_t bricks = along(cells.x) * along(cells.y) * (dimension == 3 ? along(cells.z) : 1);
-  // Per brick: O and O_s (8 bytes each), the head of I (4), counts, homes and record of T (76), and one viewer's
-  // copies: O, visible cells and, in 2D, H and the cells that legs hold, in 3D the newly visible ones (8 each).
-  std::uint64_t bytes = bricks * (96 + (dimension == 2 ? 40 : 24));
+  return along(cells.x) * along(cells.y) * (dimension == 3 ? along(cells.z) : 1);
+}
+
+}  // namespace
+
+std::uint64_t Lattice::bytes_for(int dimension, const Cell& cells) {
+  // Per brick: O and O_s (8 bytes each), the heads of I (4 each), counts, homes and record of T (76).
+  return bricks_for(dimension, cells) * 100 + window_bytes_for(dimension, cells);
+}
+
+std::uint64_t Lattice::window_bytes_for(int dimension, const Cell& cells) {
+  // Per brick: O, visible cells and, in 2D, H and the cells that legs hold, in 3D the newly visible ones (8 each).
+  std::uint64_t bytes = bricks_for(dimension, cells) * (dimension == 2 ? 40 : 24);
   if (dimension == 2) return bytes;
   // 3D: a viewer's H, planes of rows of whole words; two opposite faces share the planes of an axis.
   const auto words = [](std::int64_t n) { return static_cast<std::uint64_t>(n / 64 + 2); };

@@ -20,12 +20,18 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
+/// What a lattice's matrices may take.
+enum class Room {
+  whole,       ///< every brick may hold something: bytes_for() must fit
+  where_needed ///< room is taken where something is, and whoever takes it sees to the limit
+};
+
 class Lattice {
  public:
   /// Cells of side `cell` (metres, > 0) from bounds.min on, as many as cover the bounds, at least one.
   /// Throws Error(bad_scene) for empty or non-finite bounds or cell, Error(limit) when bytes_for() exceeds
-  /// `max_memory` or there would be 2^32 bricks or more (the message says what cell size would fit).
-  Lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t max_memory);
+  /// `max_memory` (Room::whole) or there would be 2^32 bricks or more (the message says what cell size would fit).
+  Lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t max_memory, Room room = Room::whole);
 
   int dimension() const { return dimension_; }
   double cell() const { return cell_; }
@@ -95,6 +101,8 @@ class Lattice {
 
   /// Bytes that the matrices of a lattice of this many cells take, without entries for objects.
   static std::uint64_t bytes_for(int dimension, const Cell& cells);
+  /// Of these one viewer's copies, for a window of this many cells.
+  static std::uint64_t window_bytes_for(int dimension, const Cell& cells);
 
  private:
   int dimension_;

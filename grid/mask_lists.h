@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gridcull/grid/identifier_matrix.h"
+#include "gridcull/grid/lazy_array.h"
 
 namespace gridcull {
 
@@ -19,7 +20,7 @@ class MaskLists {
     std::uint32_t next_of_slot;
   };
 
-  explicit MaskLists(std::size_t bricks) : heads_(bricks, none) {}
+  explicit MaskLists(std::size_t bricks) : heads_(bricks) {}
 
   void reserve(std::size_t slots) {
     if (slots > chains_.size()) chains_.resize(slots, none);
@@ -33,16 +34,20 @@ class MaskLists {
     } else {
       free_ = entries_[index].next_of_slot;
     }
-    entries_[index] = {bits, slot, brick, none, heads_[brick], chains_[slot]};
-    if (heads_[brick] != none) entries_[heads_[brick]].before = index;
-    heads_[brick] = index;
+    entries_[index] = {bits, slot, brick, none, first(brick), chains_[slot]};
+    if (any(brick)) entries_[first(brick)].before = index;
+    heads_[brick] = index + 1;
     chains_[slot] = index;
   }
 
   void erase(Slot slot) {
     for (std::uint32_t i = chains_[slot]; i != none;) {
       const Entry entry = entries_[i];
-      (entry.before == none ? heads_[entry.brick] : entries_[entry.before].after) = entry.after;
+      if (entry.before == none) {
+        heads_[entry.brick] = entry.after + 1;
+      } else {
+        entries_[entry.before].after = entry.after;
+      }
       if (entry.after != none) entries_[entry.after].before = entry.before;
       entries_[i].next_of_slot = free_;
       free_ = i;
@@ -51,8 +56,8 @@ class MaskLists {
     chains_[slot] = none;
   }
 
-  bool any(std::size_t brick) const { return heads_[brick] != none; }
-  std::uint32_t first(std::size_t brick) const { return heads_[brick]; }
+  bool any(std::size_t brick) const { return heads_[brick] != 0; }
+  std::uint32_t first(std::size_t brick) const { return heads_[brick] - 1; }
   const Entry& entry(std::uint32_t index) const { return entries_[index]; }
 
   /// The slot's bits in a brick, 0 where it has none. Walks the slot's chain: outlines are short.
@@ -63,13 +68,13 @@ class MaskLists {
     return 0;
   }
 
-  std::uint64_t matrix_bytes() const { return heads_.size() * sizeof(std::uint32_t); }
+  std::uint64_t matrix_bytes() const { return heads_.bytes(); }
   std::uint64_t entry_bytes() const {
     return entries_.capacity() * sizeof(Entry) + chains_.capacity() * sizeof(std::uint32_t);
   }
 
  private:
-  std::vector<std::uint32_t> heads_;   // per brick
+  LazyArray<std::uint32_t> heads_;     // per brick: the first entry plus one, 0: none
   std::vector<std::uint32_t> chains_;  // per slot
   std::vector<Entry> entries_;
   std::uint32_t free_ = none;

@@ -8,7 +8,7 @@ namespace gridcull {
 TbvMatrix::TbvMatrix(const Lattice& lattice) : lattice_(lattice), box_(lattice.box()) {
   const Cell b = lattice.bricks();
   blocks_ = {(b.x + 1) / 2, (b.y + 1) / 2, (b.z + 1) / 2};
-  counts_.assign(lattice.brick_count(), 0);
+  counts_ = LazyArray<std::uint32_t>(lattice.brick_count());
   // Level 0 is a brick wide; the last one holds the whole lattice in one cell.
   const Cell n = lattice.cells();
   for (int shift = lattice.brick_shift();; ++shift) {
@@ -114,9 +114,12 @@ void TbvMatrix::insert(Slot slot, const Ball& ball) {
   ++written_;
   link.level = level_for(ball.radius);
   Level& level = levels_[link.level];
-  if (level.homes.empty()) level.homes.resize(static_cast<std::size_t>(level.cells.x * level.cells.y * level.cells.z));
+  if (level.homes.empty()) {
+    level.homes = LazyArray<Home>(static_cast<std::size_t>(level.cells.x * level.cells.y * level.cells.z));
+  }
   link.cell = home_cell(level, ball);
   Home& home = level.homes[link.cell];
+  if (home.size == 0) home = Home{};  // untouched memory is all zero, or what it was when the last one left
   link.before = none;
   link.after = home.head;
   if (link.after != none) links_[link.after].before = slot;
@@ -159,8 +162,8 @@ void TbvMatrix::renew(Slot slot, const Ball& ball) {
 }
 
 std::uint64_t TbvMatrix::matrix_bytes() const {
-  std::uint64_t bytes = counts_.size() * sizeof(std::uint32_t);
-  for (const Level& level : levels_) bytes += level.homes.size() * sizeof(Home);
+  std::uint64_t bytes = counts_.bytes();
+  for (const Level& level : levels_) bytes += level.homes.bytes();
   return bytes;
 }
 

@@ -102,7 +102,7 @@ class TbvMatrix {
     Cell cells;               // level cells along each axis
     int shift = 0;            // level cell = cell >> shift
     double side = 0;          // metres
-    std::vector<Home> homes;  // allocated on first use
+    LazyArray<Home> homes;    // mapped on first use
     std::uint64_t size = 0;
   };
 
@@ -121,7 +121,7 @@ class TbvMatrix {
   const Lattice& lattice_;
   std::vector<Level> levels_;
   Cell blocks_;                        // along each axis
-  std::vector<std::uint32_t> counts_;  // per brick: boxes of homes that may touch it
+  LazyArray<std::uint32_t> counts_;    // per brick: boxes of homes that may touch it
   Bounds box_;                         // of the lattice
   std::vector<Link> links_;
   std::vector<Ball> balls_;

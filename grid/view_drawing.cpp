@@ -35,9 +35,8 @@ void ViewTask::draw_all(DrawSink& sink) const {
     for (std::size_t b = 0; b < grid_.brick_count(); ++b) {
       const std::size_t brick = grid_.lattice_brick(b);
       std::uint64_t touched = 0;
-      for (std::uint32_t i = world.matrix.first_in_brick(brick); i != none; i = world.matrix.entry(i).next_in_brick) {
-        touched |= world.matrix.entry(i).touched;
-      }
+      world.matrix.each_in_brick(brick,
+                                 [&](const IdentifierMatrix::Entry& entry) { touched |= entry.touched; });
       draw_bits(lattice, brick, touched, CellLayer::touched, sink);
       draw_bits(lattice, brick, grid_.opaque[b], CellLayer::opaque, sink);
       draw_bits(lattice, brick, grid_.visible[b], CellLayer::visited, sink);

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "gridcull/core/error.h"
 
 namespace gridcull {
 
-bool ViewGrid::reset(const Lattice& lattice, const IdentifierMatrix& matrix, const Vec3& apex, double range) {
+bool ViewGrid::reset(const Lattice& lattice, const IdentifierMatrix& matrix, const Vec3& apex, double range,
+                     std::uint64_t max_memory) {
   lattice_ = &lattice;
   const Cell n = lattice.cells();
   const std::array<std::int64_t, 3> count{n.x, n.y, n.z};
@@ -24,6 +28,7 @@ bool ViewGrid::reset(const Lattice& lattice, const IdentifierMatrix& matrix, con
     base_[k] = (all.low >> s) << s;
     cells_[k] = {base_[k], std::min(count[k] - 1, (((all.high >> s) + 1) << s) - 1)};
   }
+  check_size(max_memory);
   stride_ = {1, bricks_[0], bricks_[0] * bricks_[1]};
   count_ = stride_[2] * bricks_[2];
   visible.assign(count_, 0);
@@ -33,10 +38,19 @@ bool ViewGrid::reset(const Lattice& lattice, const IdentifierMatrix& matrix, con
   for (std::size_t z = 0; z < bricks_[2]; ++z) {
     for (std::size_t y = 0; y < bricks_[1]; ++y) {
       const std::size_t from = lattice_brick(to);
-      for (std::size_t x = 0; x < bricks_[0]; ++x) opaque[to++] = matrix.opaque(from + x);
+      matrix.opaque_row(from, {opaque.data() + to, bricks_[0]});
+      to += bricks_[0];
     }
   }
   return true;
+}
+
+void ViewGrid::check_size(std::uint64_t max_memory) const {
+  const auto along = [&](std::size_t k) { return cells_[k].high - cells_[k].low + 1; };
+  const std::uint64_t bytes = Lattice::window_bytes_for(lattice_->dimension(), {along(0), along(1), along(2)});
+  if (bytes <= max_memory) return;
+  throw Error(ErrorCode::limit, "what a viewer may see needs " + std::to_string(bytes) + " bytes of cells, more than the " +
+                                    std::to_string(max_memory) + " allowed; give it a smaller range, or larger cells");
 }
 
 std::size_t ViewGrid::lattice_brick(std::size_t brick) const {

@@ -24,8 +24,10 @@ class RevealSink {
 class ViewGrid {
  public:
   /// Covers the lattice's cells within `range` metres of `apex`, at whole bricks; copies O (with O_s), clears
-  /// the rest. Returns false when no cell of the lattice is that near.
-  bool reset(const Lattice& lattice, const IdentifierMatrix& matrix, const Vec3& apex, double range);
+  /// the rest. Returns false when no cell of the lattice is that near. Throws Error(limit) when that
+  /// needs more than `max_memory` bytes.
+  bool reset(const Lattice& lattice, const IdentifierMatrix& matrix, const Vec3& apex, double range,
+             std::uint64_t max_memory);
 
   const Lattice& lattice() const { return *lattice_; }
 
@@ -70,6 +72,8 @@ class ViewGrid {
   }
 
  private:
+  void check_size(std::uint64_t max_memory) const;
+
   const Lattice* lattice_ = nullptr;
   std::array<CellRange, 3> cells_{};
   std::array<std::int64_t, 3> base_{};

@@ -60,7 +60,7 @@ void ViewTask::begin(const View& view) {
   excluded_.clear();
   rides_ = view.rides == no_id ? none : world.objects.find(view.rides);
   viewer_ = world.lattice.cell_of(view.pose.position);
-  has_window_ = grid_.reset(world.lattice, world.matrix, view.pose.position, view.range);
+  has_window_ = grid_.reset(world.lattice, world.matrix, view.pose.position, view.range, world.max_memory);
   const Cell n = world.lattice.cells();
   const auto distance = [](std::int64_t v, std::int64_t count) {
     return std::max(std::llabs(v), std::llabs(v - count));
@@ -81,9 +81,9 @@ void ViewTask::exclude(Slot slot) {
     std::size_t brick;
     if (entry.opaque == 0 || !grid_.window_brick(entry.brick, brick)) continue;
     std::uint64_t word = 0;
-    for (std::uint32_t j = matrix.first_in_brick(entry.brick); j != none; j = matrix.entry(j).next_in_brick) {
-      if (!excluded(matrix.entry(j).slot)) word |= matrix.entry(j).opaque;
-    }
+    matrix.each_in_brick(entry.brick, [&](const IdentifierMatrix::Entry& other) {
+      if (!excluded(other.slot)) word |= other.opaque;
+    });
     grid_.opaque[brick] = word;
   }
 }
@@ -100,9 +100,9 @@ void ViewTask::find_containers() {
   if (world.lattice.holds(viewer_)) {
     const std::size_t brick = world.lattice.brick_of(viewer_);
     const std::uint64_t bit = std::uint64_t{1} << world.lattice.bit_of(viewer_);
-    for (std::uint32_t i = world.matrix.first_in_brick(brick); i != none; i = world.matrix.entry(i).next_in_brick) {
-      if (world.matrix.entry(i).touched & bit) pending_.push_back(world.matrix.entry(i).slot);
-    }
+    world.matrix.each_in_brick(brick, [&](const IdentifierMatrix::Entry& entry) {
+      if (entry.touched & bit) pending_.push_back(entry.slot);
+    });
   } else {
     for (const Slot slot : world.outside) {
       if (world.objects[slot].place == Place::active) pending_.push_back(slot);
@@ -235,12 +235,10 @@ void ViewTask::collect_found(const Found& found) {
 void ViewTask::collect_brick(std::size_t lattice_brick, std::uint64_t visible) {
   const IdentifierMatrix& matrix = world_->matrix;
   world_->note_seen(world_->tbv.block_of(lattice_brick));
-  for (std::uint32_t i = matrix.first_in_brick(lattice_brick); i != none;) {
-    const auto& entry = matrix.entry(i);
+  matrix.each_in_brick(lattice_brick, [&](const IdentifierMatrix::Entry& entry) {
     ++answer_->work.object_tests;
     if (entry.touched & visible) consider(entry.slot, world_->objects[entry.slot].pose);
-    i = entry.next_in_brick;
-  }
+  });
 }
 
 std::uint64_t ViewTask::bytes() const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gridcull/core/object.h"
+#include "gridcull/core/object_hash.h"
 
 namespace gridcull {
 
@@ -19,10 +20,6 @@ struct BakedHead {
   std::uint32_t version = 1;  ///< of the payload
   std::uint64_t world = 0;    ///< static_world_hash() of the world it was baked from
 };
-
-/// Hash of the static objects, occluders and occludees: ids, shapes, poses, occluder or not. Neither their order nor
-/// moving objects count.
-std::uint64_t static_world_hash(std::span<const Object> objects);
 
 /// Writes magic, container version, head, length, payload and checksum beside `path`, then renames. Throws Error(io).
 void write_baked(const std::string& path, const BakedHead& head, std::span<const std::byte> payload);

@@ -1,10 +1,11 @@
+#include "gridcull/core/object_hash.h"
+
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <cstdint>
 #include <vector>
 
 #include "gridcull/core/hash.h"
-#include "gridcull/methods/baking.h"
 
 namespace gridcull {
 namespace {
@@ -54,6 +55,12 @@ struct WorldHash {
 };
 
 }  // namespace
+
+std::uint64_t object_hash(const Object& object) {
+  WorldHash hash;
+  hash.add(object);
+  return hash.hash.value();
+}
 
 std::uint64_t static_world_hash(std::span<const Object> objects) {
   std::vector<const Object*> statics;

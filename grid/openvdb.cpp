@@ -1,0 +1,328 @@
+// The one file that sees OpenVDB's headers (they take a minute to compile): openvdb_store.h, static_volume.h.
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <openvdb/openvdb.h>
+#include <unistd.h>
+
+#include "gridcull/core/error.h"
+#include "gridcull/grid/openvdb_store.h"
+#include "gridcull/grid/shared_cells.h"
+#include "gridcull/grid/static_volume.h"
+
+namespace gridcull {
+namespace {
+
+using WordTree = openvdb::Int64Tree;
+using HeadTree = openvdb::Int32Tree;
+
+/// Reads without the tree's list of accessors: any number of threads may, each with its own.
+template <class Tree>
+using Reader = openvdb::tree::ValueAccessor<const Tree, false>;
+
+/// A voxel is a brick: its word of O_s, and the head of its list. Empty bricks are background.
+class OpenVdbStore final : public StaticStore {
+ public:
+  explicit OpenVdbStore(const Lattice& lattice) : lattice_(lattice), words_(0), heads_(-1) {}
+
+  std::uint64_t opaque(std::size_t brick) const override {
+    return static_cast<std::uint64_t>(words_.getValue(place(brick)));
+  }
+  void add_opaque_row(std::size_t brick, std::span<std::uint64_t> out) const override {
+    Reader<WordTree> words(words_);
+    openvdb::Coord at = place(brick);
+    for (std::uint64_t& word : out) {
+      word |= static_cast<std::uint64_t>(words.getValue(at));
+      ++at.x();
+    }
+  }
+  std::uint32_t first(std::size_t brick) const override {
+    return static_cast<std::uint32_t>(heads_.getValue(place(brick)));
+  }
+  void set_opaque(std::size_t brick, std::uint64_t cells) override {
+    set(words_, place(brick), static_cast<std::int64_t>(cells));
+  }
+  void set_first(std::size_t brick, std::uint32_t entry) override {
+    set(heads_, place(brick), static_cast<std::int32_t>(entry));
+  }
+  std::uint64_t bytes() const override { return words_.memUsage() + heads_.memUsage(); }
+
+ private:
+  openvdb::Coord place(std::size_t brick) const {
+    const Cell corner = lattice_.brick_corner(brick);
+    const int shift = lattice_.brick_shift();
+    return {static_cast<int>(corner.x >> shift), static_cast<int>(corner.y >> shift),
+            lattice_.dimension() == 2 ? 0 : static_cast<int>(corner.z >> shift)};
+  }
+  template <class Tree, class Value>
+  static void set(Tree& tree, const openvdb::Coord& at, Value value) {
+    if (value != tree.background()) return tree.setValueOn(at, value);
+    auto* leaf = tree.probeLeaf(at);
+    if (leaf == nullptr) return;
+    leaf->setValueOff(at, value);
+    // What nobody is in any longer goes back to a tile.
+    if (leaf->isEmpty()) tree.addTile(1, at, tree.background(), false);
+  }
+
+  const Lattice& lattice_;
+  WordTree words_;
+  HeadTree heads_;
+};
+
+// Volume files.
+
+constexpr const char* format = "gridcull.static/1";
+
+/// Names of the metadata.
+namespace key {
+constexpr const char *format = "gridcull_format", *units = "gridcull_units", *dimension = "gridcull_dimension",
+                     *cell = "gridcull_cell", *origin = "gridcull_origin", *cells = "gridcull_cells",
+                     *world = "gridcull_world", *objects = "gridcull_objects", *lists = "gridcull_lists",
+                     *check = "gridcull_check";
+}  // namespace key
+
+std::string hexadecimal(std::uint64_t value) {
+  char digits[16];
+  return {digits, std::to_chars(digits, digits + 16, value, 16).ptr};
+}
+
+std::uint64_t from_hexadecimal(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  if (end.ec != std::errc{} || end.ptr != text.data() + text.size()) {
+    throw Error(ErrorCode::bad_scene, "expected a hash in hexadecimal digits, found \"" + text.substr(0, 40) + "\"");
+  }
+  return value;
+}
+
+/// Where a brick's cell `bit` is.
+openvdb::Coord voxel_of(const Lattice& lattice, std::size_t brick, int bit) {
+  const Cell c = lattice.cell_at(brick, bit);
+  return {static_cast<int>(c.x), static_cast<int>(c.y), static_cast<int>(c.z)};
+}
+
+Lattice lattice_of(const StaticCells& cells) {
+  const Vec3 size = cells.cell * Vec3(cells.cells.x, cells.cells.y, cells.dimension == 3 ? cells.cells.z : 0);
+  // Half a cell less: rounding up again gives the number of cells.
+  const Vec3 less = 0.5 * cells.cell * Vec3(1.0, 1.0, cells.dimension == 3 ? 1.0 : 0.0);
+  return {cells.dimension, {cells.origin, cells.origin + size - less}, cells.cell, 0, Room::where_needed};
+}
+
+template <class Grid>
+typename Grid::Ptr make_grid(const char* name, const typename Grid::ValueType& background, const StaticCells& cells) {
+  auto grid = Grid::create(background);
+  grid->setName(name);
+  grid->setGridClass(openvdb::GRID_UNKNOWN);
+  auto transform = openvdb::math::Transform::createLinearTransform(cells.cell);
+  const double half = 0.5 * cells.cell;  // a voxel's place is its middle
+  transform->postTranslate({cells.origin.x + half, cells.origin.y + half, cells.origin.z + (cells.dimension == 3 ? half : 0.0)});
+  grid->setTransform(transform);
+  return grid;
+}
+
+openvdb::MetaMap metadata_of(const StaticCells& cells, const SharedCells& shared) {
+  openvdb::MetaMap map;
+  const auto text = [&](const char* name, const std::string& value) {
+    map.insertMeta(name, openvdb::StringMetadata(value));
+  };
+  text(key::format, format);
+  text(key::units, "metres");
+  map.insertMeta(key::dimension, openvdb::Int32Metadata(cells.dimension));
+  map.insertMeta(key::cell, openvdb::DoubleMetadata(cells.cell));
+  map.insertMeta(key::origin, openvdb::Vec3DMetadata({cells.origin.x, cells.origin.y, cells.origin.z}));
+  map.insertMeta(key::cells, openvdb::Vec3IMetadata({static_cast<int>(cells.cells.x), static_cast<int>(cells.cells.y),
+                                                     static_cast<int>(cells.cells.z)}));
+  text(key::world, hexadecimal(cells.world));
+  text(key::objects, members_text(cells));
+  text(key::lists, lists_text(shared, cells));
+  text(key::check, hexadecimal(cells_hash(cells)));
+  return map;
+}
+
+openvdb::GridPtrVec grids_of(const StaticCells& cells, const SharedCells& shared) {
+  const Lattice lattice = lattice_of(cells);
+  const auto opaque = make_grid<openvdb::BoolGrid>("opaque", false, cells);
+  const auto touched = make_grid<openvdb::BoolGrid>("touched", false, cells);
+  const auto object = make_grid<openvdb::Int32Grid>("object", -1, cells);
+  auto opaque_cells = opaque->getAccessor(), touched_cells = touched->getAccessor();
+  auto object_cells = object->getAccessor();
+  for (const SharedCells::Part& part : shared.parts) {
+    const bool filled = shared.opaque(part.list);
+    for (std::uint64_t bits = part.cells; bits != 0; bits &= bits - 1) {
+      const openvdb::Coord at = voxel_of(lattice, part.brick, std::countr_zero(bits));
+      touched_cells.setValueOn(at, true);
+      object_cells.setValueOn(at, static_cast<std::int32_t>(part.list));
+      if (filled) opaque_cells.setValueOn(at, true);
+    }
+  }
+  opaque->pruneGrid();
+  touched->pruneGrid();
+  object->pruneGrid();
+  return {opaque, touched, object};
+}
+
+template <class T>
+T value_of(const openvdb::MetaMap& map, const char* name) {
+  const auto found = map.getMetadata<openvdb::TypedMetadata<T>>(name);
+  if (!found) throw Error(ErrorCode::bad_scene, std::string("expected metadata ") + name + ", found none of that type");
+  return found->value();
+}
+
+StaticCells head_of(const openvdb::MetaMap& map) {
+  if (!map.getMetadata<openvdb::StringMetadata>(key::format)) {
+    throw Error(ErrorCode::bad_scene, "expected a static volume, as gridcull bake static writes, found another .vdb");
+  }
+  const std::string found = value_of<std::string>(map, key::format);
+  if (found != format) {
+    throw Error(ErrorCode::bad_scene, std::string("expected format ") + format + ", found " + found.substr(0, 60));
+  }
+  StaticCells cells;
+  cells.dimension = value_of<std::int32_t>(map, key::dimension);
+  cells.cell = value_of<double>(map, key::cell);
+  const openvdb::Vec3d origin = value_of<openvdb::Vec3d>(map, key::origin);
+  cells.origin = {origin.x(), origin.y(), origin.z()};
+  const openvdb::Vec3i count = value_of<openvdb::Vec3i>(map, key::cells);
+  cells.cells = {count.x(), count.y(), count.z()};
+  cells.world = from_hexadecimal(value_of<std::string>(map, key::world));
+  const bool flat = cells.dimension == 2 && count.z() == 1 && origin.z() == 0.0;
+  if (!(flat || cells.dimension == 3) || count.x() < 1 || count.y() < 1 || count.z() < 1 ||
+      lattice_of(cells).cells() != cells.cells) {
+    throw Error(ErrorCode::bad_scene, "expected cells of a lattice, found other metadata");
+  }
+  return cells;
+}
+
+/// Collects the parts of a file's grid `object`, leaf by leaf; leaves are read as they are come to and given back.
+class PartReader {
+ public:
+  PartReader(const Lattice& lattice, std::uint64_t max_memory, SharedCells& out)
+      : lattice_(lattice), max_memory_(max_memory), out_(out) {}
+
+  void read(openvdb::Int32Grid& grid) {
+    using Leaf = openvdb::Int32Tree::LeafNodeType;
+    std::vector<Leaf*> stolen;
+    grid.tree().stealNodes(stolen);
+    std::vector<std::unique_ptr<Leaf>> leaves(stolen.begin(), stolen.end());
+    for (auto& leaf : leaves) {
+      for (auto value = leaf->cbeginValueOn(); value; ++value) add(value.getCoord(), *value);
+      leaf.reset();
+      finish();
+    }
+    for (auto tile = grid.tree().cbeginValueOn(); tile; ++tile) add_box(tile.getBoundingBox(), *tile);
+  }
+
+ private:
+  void add(const openvdb::Coord& at, std::int32_t list) {
+    const Cell cell{at.x(), at.y(), at.z()};
+    if (!lattice_.holds(cell) || list < 0) {
+      throw Error(ErrorCode::bad_scene, "object: expected numbers of lists in cells of the lattice, found others");
+    }
+    const auto brick = static_cast<std::uint32_t>(lattice_.brick_of(cell));
+    const std::uint64_t bit = std::uint64_t{1} << lattice_.bit_of(cell);
+    for (SharedCells::Part& part : leaf_parts_) {
+      if (part.brick != brick || part.list != static_cast<std::uint32_t>(list)) continue;
+      part.cells |= bit;
+      return;
+    }
+    leaf_parts_.push_back({brick, static_cast<std::uint32_t>(list), bit});
+  }
+  void finish() {
+    check_brick_memory(out_.parts.size() + leaf_parts_.size(), max_memory_);
+    out_.parts.insert(out_.parts.end(), leaf_parts_.begin(), leaf_parts_.end());
+    leaf_parts_.clear();
+  }
+  void add_box(const openvdb::CoordBBox& box, std::int32_t list) {
+    if (box.volume() / 64 > max_memory_ / sizeof(BrickCover)) check_brick_memory(box.volume() / 64, max_memory_);
+    const int edge = lattice_.brick_edge(), up = lattice_.dimension() == 3 ? edge : 1;
+    for (int z = box.min().z(); z <= box.max().z(); z += up) {
+      for (int y = box.min().y(); y <= box.max().y(); y += edge) {
+        for (int x = box.min().x(); x <= box.max().x(); x += edge) {
+          const openvdb::CoordBBox brick({x, y, z}, {x + edge - 1, y + edge - 1, z + up - 1});
+          for (auto at = brick.begin(); at; ++at) add(*at, list);
+          finish();
+        }
+      }
+    }
+  }
+
+  const Lattice& lattice_;
+  std::uint64_t max_memory_;
+  SharedCells& out_;
+  std::vector<SharedCells::Part> leaf_parts_;
+};
+
+/// Runs `use(file)` on an open file; what OpenVDB or the metadata say against it becomes one line about `path`.
+template <class Use>
+auto with_file(const std::string& path, Use&& use) {
+  openvdb::initialize();
+  std::error_code fault;
+  const auto status = std::filesystem::status(path, fault);
+  if (!std::filesystem::exists(status)) throw Error(ErrorCode::io, path + ": there is no such file");
+  if (!std::filesystem::is_regular_file(status)) throw Error(ErrorCode::io, path + ": expected a file");
+  if (::access(path.c_str(), R_OK) != 0) throw Error(ErrorCode::io, path + ": cannot be read");
+  try {
+    openvdb::io::File file(path);
+    file.setCopyMaxBytes(0);  // read in place, not from a copy
+    file.open(true);
+    return use(file);
+  } catch (const Error& error) {
+    throw Error(error.code(), path + ": " + error.what());
+  } catch (const std::exception& error) {
+    std::string line = error.what();
+    for (char& c : line) c = c == '\n' ? ' ' : c;
+    throw Error(ErrorCode::bad_scene, path + ": cannot be read as a .vdb file: " + line.substr(0, 200));
+  }
+}
+
+}  // namespace
+
+void write_static_volume(const std::string& path, const StaticCells& cells) {
+  openvdb::initialize();
+  const SharedCells shared = share_cells(cells);
+  const std::string beside = path + "." + std::to_string(::getpid()) + ".part";
+  try {
+    openvdb::io::File(beside).write(grids_of(cells, shared), metadata_of(cells, shared));
+    std::filesystem::rename(beside, path);
+  } catch (const std::exception&) {
+    std::error_code none;
+    std::filesystem::remove(beside, none);
+    throw Error(ErrorCode::io, path + ": cannot be written");
+  }
+}
+
+StaticCells read_static_volume_head(const std::string& path) {
+  return with_file(path, [](openvdb::io::File& file) { return head_of(*file.getMetadata()); });
+}
+
+StaticCells read_static_volume(const std::string& path, std::uint64_t max_memory) {
+  return with_file(path, [&](openvdb::io::File& file) {
+    const openvdb::MetaMap::Ptr metadata = file.getMetadata();
+    StaticCells cells = head_of(*metadata);
+    cells.members = parse_members(value_of<std::string>(*metadata, key::objects));
+    SharedCells shared;
+    shared.lists = parse_lists(value_of<std::string>(*metadata, key::lists), cells);
+    if (!file.hasGrid("object")) throw Error(ErrorCode::bad_scene, "expected a grid named object, found none");
+    const auto grid = openvdb::gridPtrCast<openvdb::Int32Grid>(file.readGrid("object"));
+    if (!grid) throw Error(ErrorCode::bad_scene, "object: expected a grid of int32, found another type");
+    PartReader(lattice_of(cells), max_memory, shared).read(*grid);
+    unshare_cells(shared, max_memory, cells);
+    if (cells_hash(cells) != from_hexadecimal(value_of<std::string>(*metadata, key::check))) {
+      throw Error(ErrorCode::bad_scene, "cut short or altered: the cells are not those that were written");
+    }
+    return cells;
+  });
+}
+
+bool has_openvdb() { return true; }
+
+std::unique_ptr<StaticStore> make_openvdb_store(const Lattice& lattice) {
+  openvdb::initialize();
+  return std::make_unique<OpenVdbStore>(lattice);
+}
+
+}  // namespace gridcull

@@ -1,0 +1,17 @@
+// The static store in OpenVDB's trees (Museth 2013): one leaf of a tree for 8 x 8 x 8 bricks that hold anything.
+// Only openvdb.cpp sees OpenVDB's headers; openvdb_missing.cpp takes its place where it is not there.
+#pragma once
+
+#include <memory>
+
+#include "gridcull/grid/static_store.h"
+
+namespace gridcull {
+
+/// Whether this gridcull was built with OpenVDB.
+bool has_openvdb();
+
+/// Throws Error(usage) without OpenVDB.
+std::unique_ptr<StaticStore> make_openvdb_store(const Lattice& lattice);
+
+}  // namespace gridcull

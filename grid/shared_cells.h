@@ -1,0 +1,53 @@
+// Static cells by place instead of by object, as a volume file stores them: every touched cell has a number, that of
+// the list of objects that share it. A list says of each object whether it fills the cell (the cell lies wholly inside
+// it) or only touches it, so that nothing is lost on the way.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gridcull/grid/static_cells.h"
+
+namespace gridcull {
+
+struct SharedCells {
+  struct Owner {
+    std::uint32_t member;  ///< index into StaticCells::members
+    bool fills;
+    bool operator==(const Owner&) const = default;
+  };
+  /// Cells of one brick that share a list.
+  struct Part {
+    std::uint32_t brick;
+    std::uint32_t list;
+    std::uint64_t cells;
+  };
+  std::vector<std::vector<Owner>> lists;  ///< members ascend in each
+  std::vector<Part> parts;                ///< bricks ascend
+
+  /// Whether somebody fills the cells of the list.
+  bool opaque(std::uint32_t list) const;
+};
+
+SharedCells share_cells(const StaticCells& cells);
+
+/// The other way: sets `bricks` and every member's range of them. Parts may come in any order. Throws Error(bad_scene)
+/// for numbers that are not there, Error(limit) for more than `max_memory` bytes.
+void unshare_cells(const SharedCells& shared, std::uint64_t max_memory, StaticCells& cells);
+
+/// Lists as text, a line each: ids, with a * behind those who fill the cell.
+std::string lists_text(const SharedCells& shared, const StaticCells& cells);
+/// Throws Error(bad_scene) for what lists_text() would not write.
+std::vector<std::vector<SharedCells::Owner>> parse_lists(std::string_view text, const StaticCells& cells);
+
+/// A line for each member: id, hash in hexadecimal digits, and a * where it reaches beyond the lattice.
+std::string members_text(const StaticCells& cells);
+/// Throws Error(bad_scene) for what members_text() would not write.
+std::vector<StaticCells::Member> parse_members(std::string_view text);
+
+/// Stable hash of all that is stored, for what was altered on the way.
+std::uint64_t cells_hash(const StaticCells& cells);
+
+}  // namespace gridcull
