@@ -102,6 +102,7 @@ void GridEngine::State::discretise() {
       list_active(slot);
     }
   }
+  if (!waiting.empty()) options.static_cells.reset();  // what they hold is in the matrices now
   waiting.clear();
   if (world.source != nullptr) {
     read_active();

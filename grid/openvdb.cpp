@@ -106,12 +106,7 @@ openvdb::Coord voxel_of(const Lattice& lattice, std::size_t brick, int bit) {
   return {static_cast<int>(c.x), static_cast<int>(c.y), static_cast<int>(c.z)};
 }
 
-Lattice lattice_of(const StaticCells& cells) {
-  const Vec3 size = cells.cell * Vec3(cells.cells.x, cells.cells.y, cells.dimension == 3 ? cells.cells.z : 0);
-  // Half a cell less: rounding up again gives the number of cells.
-  const Vec3 less = 0.5 * cells.cell * Vec3(1.0, 1.0, cells.dimension == 3 ? 1.0 : 0.0);
-  return {cells.dimension, {cells.origin, cells.origin + size - less}, cells.cell, 0, Room::where_needed};
-}
+Lattice lattice_of(const StaticCells& cells) { return gridcull::lattice_of(cells, 0, Room::where_needed); }
 
 template <class Grid>
 typename Grid::Ptr make_grid(const char* name, const typename Grid::ValueType& background, const StaticCells& cells) {

@@ -25,6 +25,18 @@ const StaticCells::Member* StaticCells::find(const Object& object) const {
   return member != nullptr && member->hash == object_hash(object) ? member : nullptr;
 }
 
+Bounds bounds_of(const StaticCells& cells) {
+  const bool solid = cells.dimension == 3;
+  // Half a cell less: rounding up again gives the number of cells.
+  const Vec3 along(static_cast<double>(cells.cells.x) - 0.5, static_cast<double>(cells.cells.y) - 0.5,
+                   solid ? static_cast<double>(cells.cells.z) - 0.5 : 0.0);
+  return {cells.origin, cells.origin + cells.cell * along};
+}
+
+Lattice lattice_of(const StaticCells& cells, std::uint64_t max_memory, Room room) {
+  return {cells.dimension, bounds_of(cells), cells.cell, max_memory, room};
+}
+
 void check_brick_memory(std::uint64_t bricks, std::uint64_t max_memory) {
   if (bricks * sizeof(BrickCover) <= max_memory) return;
   throw Error(ErrorCode::limit, "the cells of static objects need more than the " + std::to_string(max_memory) +

@@ -44,6 +44,11 @@ struct StaticCells {
   std::uint64_t bytes() const { return members.capacity() * sizeof(Member) + bricks.capacity() * sizeof(BrickCover); }
 };
 
+/// Bounds that give their lattice, the same to the bit.
+Bounds bounds_of(const StaticCells& cells);
+/// Their lattice. Throws as Lattice does.
+Lattice lattice_of(const StaticCells& cells, std::uint64_t max_memory, Room room);
+
 /// Discretises the static ones among `objects`. `progress` is told of the share done and stops the work by false: then
 /// nothing is returned. Throws Error(limit) when the result needs more than `max_memory` bytes.
 std::optional<StaticCells> discretise_static(const Lattice& lattice, std::span<const Object> objects,

@@ -13,6 +13,8 @@
 #include "gridcull/core/bound_kind.h"
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/culler.h"
+#include "gridcull/grid/static_cells.h"
+#include "gridcull/grid/static_store.h"
 #include "gridcull/methods/baking.h"
 
 namespace gridcull {
@@ -31,6 +33,8 @@ struct MethodOptions {
   std::optional<BoundKind> bound{};     ///< what objects are tested with; none: the method's own choice
   std::string baked{};                  ///< file that the method reads instead of baking; "": none
   BakeSettings bake{};                  ///< for baking
+  StoreKind store = StoreKind::dense;   ///< `voxel`: where static objects' cells are kept
+  std::shared_ptr<const StaticCells> static_cells{};  ///< `voxel`: cells that were discretised before
   double view_box = 0.0;                ///< five-d-tree: edge of the box about the viewpoint, metres, >= 0
 };
 

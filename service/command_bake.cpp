@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/methods/bytes.h"
+#include "gridcull/service/bake_static.h"
 #include "gridcull/service/commands.h"
 #include "gridcull/service/file_roles.h"
 #include "gridcull/service/interrupt.h"
@@ -159,9 +161,6 @@ std::vector<std::byte> work(const MethodEntry& method, std::span<const Object> o
 }
 
 void check_command_line(const BakeOptions& options) {
-  if (options.world.scene == "static") {
-    throw Error(ErrorCode::usage, "bake static: static volumes cannot be baked yet; expected bake --method M SCENE");
-  }
   if (!options.more.empty()) throw Error(ErrorCode::usage, "bake: expected one scene, found also " + options.more);
   if (options.out.empty()) throw Error(ErrorCode::usage, "--out is required");
   check_folder(options.out);
@@ -184,7 +183,19 @@ std::vector<Object> objects_of(const PreparedWorld& world) {
   return objects;
 }
 
+int bake_cells(BakeOptions options) {
+  if (options.more.empty()) throw Error(ErrorCode::usage, "bake static: expected a scene or a model");
+  if (!options.world.method.empty()) throw Error(ErrorCode::usage, "bake static: no --method is needed");
+  for (const auto& [name, value] : options.settings) {
+    if (value) throw Error(ErrorCode::usage, "--" + name + ": no option of bake static");
+  }
+  options.world.scene = std::exchange(options.more, "");
+  check_command_line(options);
+  return bake_static(options.world, options.out);
+}
+
 int bake(const BakeOptions& options) {
+  if (options.world.scene == "static") return bake_cells(options);
   check_command_line(options);
   const MethodEntry& method = find_baker(options.world);
   const BakeSettings settings = choose_settings(options, method);
@@ -233,7 +244,8 @@ void add_bake_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<BakeOptions>();
   options->world.method.clear();
   options->world.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 256u));
-  CLI::App& command = *app.add_subcommand("bake", "Work in advance for a method, into a file that --baked reads");
+  CLI::App& command = *app.add_subcommand("bake", "Work in advance: for a method, into a file that --baked reads, or with `static` in front of the scene the cells of "
+      "what does not move, into a .vdb");
   add_scene_options(command, options->world);
   command.add_option("MORE", options->more)->group("");
   add_text(command, "--method", options->world.method, "one that bakes", "one that bakes: " + bakers())
@@ -248,7 +260,9 @@ void add_bake_command(CLI::App& app, Action& action) {
       "Example: a town, baked and used\n"
       "  gridcull make town --out town --viewers 10 --range 100\n"
       "  gridcull bake --method five-d-tree town/scene.json --out town.baked\n"
-      "  gridcull run town/scene.json --frames town/frames.jsonl --method five-d-tree --baked town.baked");
+      "  gridcull run town/scene.json --frames town/frames.jsonl --method five-d-tree --baked town.baked\n"
+      "Example: the cells of a scene's static objects, or of a model, for its \"static_volume\"\n"
+      "  gridcull bake static town/scene.json --out town/town.vdb");
   command.callback([options, &action] { action = [options] { return bake(*options); }; });
 }
 

@@ -8,6 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include "gridcull/core/error.h"
+#include "gridcull/grid/engine.h"
+#include "gridcull/grid/static_volume.h"
 #include "gridcull/service/interrupt.h"
 #include "gridcull/service/option_values.h"
 #include "gridcull/service/progress.h"
@@ -18,12 +20,23 @@
 namespace gridcull {
 namespace {
 
+StoreKind store_of(const WorldOptions& options, bool has_volume) {
+  if (options.store.empty()) return has_volume ? StoreKind::openvdb : StoreKind::dense;
+  for (const StoreKind kind : {StoreKind::dense, StoreKind::openvdb}) {
+    if (options.store != name_of(kind)) continue;
+    if (has_store(kind)) return kind;
+    throw Error(ErrorCode::usage, "--store: this gridcull was built without OpenVDB");
+  }
+  throw option_error("--store", "dense or openvdb", options.store);
+}
+
 void check_options(const WorldOptions& options) {
   if (options.tbv != "off" && options.tbv != "solid" && options.tbv != "hollow" && options.tbv != "auto") {
     throw option_error("--tbv", "off, solid, hollow or auto", options.tbv);
   }
   if (!options.resolution.empty()) (void)parse_resolution(options.resolution);
   if (!options.bounds.empty()) (void)parse_bounds(options.bounds);
+  (void)store_of(options, false);
   keep_apart(input_files(options), {});
 }
 
@@ -60,10 +73,10 @@ BoundKind parse_bounds(const std::string& name) {
 }
 
 Lattice make_lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t max_memory,
-                     const std::string& source) {
+                     const std::string& source, Room room) {
   refuse_tiny(cell, bounds, source);
   try {
-    return Lattice(dimension, bounds, cell, max_memory);
+    return Lattice(dimension, bounds, cell, max_memory, room);
   } catch (const Error& fault) {
     constexpr std::string_view field = "grid.cell";
     const std::string_view line = fault.what();
@@ -117,6 +130,10 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
                ", in their own axes (default: silhouette in 3D the convex hull of small shapes and the box of "
                "others, depth-rays the box, frustum and shadow-frusta the shape itself)")
       .type_name("KIND");
+  add_text(command, "--store", options.store, "dense or openvdb",
+           "where the cells of static objects are kept: an array as big as the grid, or OpenVDB's trees, as big as the "
+           "world's surface (default openvdb for a scene with a static volume, else dense)")
+      .type_name("KIND");
   add_whole(command, "--occluders", options.occluders, {1, 64, "1 .. 64"},
             "shadow-frusta: used at most for each frame and viewer, 1 .. 64 (default 8)");
   command.add_flag("--pull", options.pull,
@@ -131,13 +148,22 @@ PreparedWorld prepare_world(const WorldOptions& options, bool always_survey) {
 PreparedWorld prepare_scene(const WorldOptions& options, Scene scene, bool always_survey) {
   check_options(options);
   const std::optional<double> cell = options.cell ? options.cell : scene.cell;
+  auto volume = open_static_volume(scene, options.scene, cell);
+  const StoreKind store = store_of(options, volume.has_value());
+  const Room room = store == StoreKind::dense ? Room::whole : Room::where_needed;
   std::optional<Survey> survey;
+  if (volume) {
+    if (always_survey) survey = survey_world(scene, options.frames);
+    const Lattice lattice = lattice_of(volume->head, options.max_memory, room);
+    LatticeChoice choice{bounds_of(volume->head), lattice.cell(), "those of " + volume->path, "that of " + volume->path};
+    return {std::move(scene), std::move(survey), std::move(choice), lattice, std::move(volume), store};
+  }
   if (always_survey || !scene.bounds || !cell) survey = survey_world(scene, options.frames);
   if (cell) refuse_tiny(*cell, scene.bounds ? *scene.bounds : survey->extent, cell_source(options, scene));
   LatticeChoice choice = choose(scene, cell, survey);
   const Lattice lattice =
-      make_lattice(scene.dimension, choice.bounds, choice.cell, options.max_memory, cell_source(options, scene));
-  return {std::move(scene), std::move(survey), std::move(choice), lattice};
+      make_lattice(scene.dimension, choice.bounds, choice.cell, options.max_memory, cell_source(options, scene), room);
+  return {std::move(scene), std::move(survey), std::move(choice), lattice, {}, store};
 }
 
 MethodOptions method_options(const WorldOptions& options, const PreparedWorld& world) {
@@ -149,6 +175,7 @@ MethodOptions method_options(const WorldOptions& options, const PreparedWorld& w
   method.threads = options.threads;
   method.max_memory = options.max_memory;
   method.occluders = options.occluders;
+  method.store = world.store;
   return method;
 }
 
@@ -163,6 +190,11 @@ std::unique_ptr<Culler> make_culler(const WorldOptions& options, const PreparedW
     }
   }
   if (!options.bounds.empty()) method.bound = parse_bounds(options.bounds);
+  // Only `voxel` asks for cells: the others take the objects themselves.
+  if (world.volume && options.method == grid_engine_info(Hiding::voxel).name) {
+    method.static_cells =
+        std::make_shared<const StaticCells>(read_static_volume(world.volume->path, options.max_memory));
+  }
   return make_method(options.method, method);
 }
 

@@ -12,6 +12,7 @@
 #include "gridcull/grid/lattice.h"
 #include "gridcull/methods/catalog.h"
 #include "gridcull/service/file_roles.h"
+#include "gridcull/service/static_world.h"
 #include "gridcull/service/survey.h"
 #include "gridcull/sim/frames.h"
 #include "gridcull/sim/replay.h"
@@ -38,11 +39,12 @@ struct WorldOptions {
   double view_box = MethodOptions{}.view_box;
   std::string bounds{};  ///< a name of core/bound_kind.h; "": the method's default
   int occluders = MethodOptions{}.occluders;
+  std::string store{};  ///< dense or openvdb; "": openvdb where the scene has a static volume, else dense
 };
 
 /// The lattice; a refusal of the cell begins with where it comes from: "--cell", "s.json: /grid/cell".
 Lattice make_lattice(int dimension, const Bounds& bounds, double cell, std::uint64_t max_memory,
-                     const std::string& source);
+                     const std::string& source, Room room = Room::whole);
 
 /// SCENE and, where they are named, --frames and --baked.
 std::vector<NamedFile> input_files(const WorldOptions& options);
@@ -61,6 +63,8 @@ struct PreparedWorld {
   std::optional<Survey> survey;  ///< where the bounds or cell had to be derived, or it was asked for
   LatticeChoice choice;
   Lattice lattice;
+  std::optional<StaticVolume> volume{};
+  StoreKind store = StoreKind::dense;
 };
 
 /// Reads and chooses. Throws what readers throw and Error(limit) when the grid needs more than

@@ -372,4 +372,10 @@ PlacedFaces placed(const Faces& faces) {
   return out;
 }
 
+bool is_mesh_file(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  constexpr std::string_view endings[] = {".obj", ".ply", ".stl", ".gltf", ".glb", ".3ds"};
+  return std::find(std::begin(endings), std::end(endings), ending) != std::end(endings);
+}
+
 }  // namespace gridcull

@@ -43,4 +43,7 @@ struct PlacedFaces {
 };
 PlacedFaces placed(const Faces& faces);
 
+/// Whether the path ends as models do: .obj, .ply, .stl, .gltf, .glb, .3ds.
+bool is_mesh_file(const std::string& path);
+
 }  // namespace gridcull

@@ -61,7 +61,7 @@ Scene parse_scene(std::string_view text, const std::string& source_name, MeshShe
 Scene read_scene(const JsonRef& root, MeshShelf* meshes) {
   // The format first: an unknown key of a later version is then explained by its version.
   root.at("format").expect_format(format);
-  root.only_keys({"format", "dimension", "bounds", "grid", "objects", "viewers"});
+  root.only_keys({"format", "dimension", "bounds", "grid", "objects", "viewers", "static_volume"});
   Scene scene;
   const JsonRef dimension = root.at("dimension");
   scene.dimension = static_cast<int>(dimension.within(2.0, 3.0, "2 or 3"));
@@ -70,6 +70,12 @@ Scene read_scene(const JsonRef& root, MeshShelf* meshes) {
   if (const auto grid = root.find("grid")) {
     grid->only_keys({"cell"});
     scene.cell = grid->at("cell").positive();
+  }
+  if (const auto volume = root.find("static_volume")) {
+    if (meshes == nullptr) volume->refuse_with("files are not taken here: a static volume belongs into a scene file");
+    volume->only_keys({"file"});
+    scene.static_volume = volume->at("file").string();
+    if (scene.static_volume.empty()) volume->at("file").refuse("the name of a file");
   }
   read_objects(root.at("objects"), meshes, scene);
   read_viewers(root.at("viewers"), scene);
@@ -95,6 +101,11 @@ std::string scene_text(const Scene& scene) {
   if (scene.cell) {
     out += ",\n  \"grid\": {\"cell\": ";
     append_number(out, *scene.cell);
+    out += '}';
+  }
+  if (!scene.static_volume.empty()) {
+    out += ",\n  \"static_volume\": {\"file\": ";
+    append_string(out, scene.static_volume);
     out += '}';
   }
   const char* separator = "\n    ";

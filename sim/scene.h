@@ -55,6 +55,7 @@ struct Scene {
   std::optional<double> cell{};    ///< metres; none: to be derived from the content
   std::vector<SceneObject> objects{};
   std::vector<SceneViewer> viewers{};
+  std::string static_volume{};  ///< file of the static objects' cells, relative to the scene file; "": none
 };
 
 /// Reads a scene file ("-" is standard input, .gz is unpacked) and the meshes that it names (sim/mesh_shelf.h), which
@@ -62,7 +63,8 @@ struct Scene {
 /// meshes that are too big and Error(bad_scene) for everything else.
 Scene read_scene(const std::string& path, std::uint64_t max_mesh_memory = std::uint64_t{4} << 30);
 
-/// The same from text; `source_name` stands at the front of refusals. Meshes are refused unless there is a shelf.
+/// The same from text; `source_name` stands at the front of refusals. Without a shelf files of meshes and of static cells
+/// are refused.
 Scene parse_scene(std::string_view text, const std::string& source_name, MeshShelf* meshes = nullptr);
 
 /// Writes a scene so that reading it gives the same bits. "-" is standard output; .gz packs; the file

@@ -8,6 +8,7 @@
 #include "gridcull/core/error.h"
 #include "gridcull/core/exact.h"
 #include "gridcull/core/view_volume.h"
+#include "gridcull/grid/shared_cells.h"
 #include "gridcull/methods/frustum.h"
 
 namespace gridcull::test {
@@ -95,6 +96,17 @@ const Truth::Frame* Truth::frame(std::size_t index) const { return index < frame
 
 namespace {
 
+/// The static objects' cells as a volume file gives them back.
+std::shared_ptr<const StaticCells> stored_cells(const WorldScript& script) {
+  constexpr std::uint64_t plenty = std::uint64_t{1} << 32;
+  const Lattice lattice(script.dimension, script.bounds, script.cell, plenty);
+  auto cells = std::make_shared<StaticCells>(
+      *discretise_static(lattice, script.objects, plenty, [](double) { return true; }));
+  const SharedCells shared = share_cells(*cells);
+  unshare_cells(shared, plenty, *cells);
+  return cells;
+}
+
 class Run {
  public:
   Run(const WorldScript& script, const MethodEntry& method, const Truth& truth, Tally& tally)
@@ -109,6 +121,9 @@ class Run {
     if (script.tbv == "off" && method.options.find("--resolution R") != std::string_view::npos) o.resolution = 32;
     push_ = method.make(o);
     o.threads = script.threads;
+    // Where and how static objects' cells are kept must not change a bit.
+    if (has_store(StoreKind::openvdb)) o.store = StoreKind::openvdb;
+    o.static_cells = stored_cells(script);
     pull_ = method.make(o);
     pull_->set_source(&stage_);
     frustum_ = make_frustum_culler(script.dimension);

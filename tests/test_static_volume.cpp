@@ -1,0 +1,132 @@
+// Volume files: what is written comes back, and what is no whole file of ours is refused in one line.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include "gridcull/core/error.h"
+#include "gridcull/grid/openvdb_store.h"
+#include "gridcull/grid/shared_cells.h"
+#include "gridcull/grid/static_volume.h"
+#include "random_world.h"
+
+namespace gridcull::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t plenty = std::uint64_t{1} << 30;
+
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / ("gridcull-volume-" + std::to_string(::getpid()))) {
+    fs::create_directories(path_);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+StaticCells cells_of(int dimension, std::uint64_t seed) {
+  const WorldScript script = random_world(dimension, seed);
+  const Lattice lattice(script.dimension, script.bounds, script.cell, plenty);
+  return *discretise_static(lattice, script.objects, plenty, [](double) { return true; });
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_bytes(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// The refusal, "" where there is none. One line that begins with the file.
+std::string refusal(const std::string& path, bool head_only = false) {
+  try {
+    if (head_only) {
+      (void)read_static_volume_head(path);
+    } else {
+      (void)read_static_volume(path, plenty);
+    }
+    return "";
+  } catch (const Error& error) {
+    const std::string line = error.what();
+    CHECK(line.starts_with(path + ": "));
+    CHECK(line.find('\n') == std::string::npos);
+    return line;
+  }
+}
+
+TEST_CASE("a volume file keeps everything") {
+  if (!has_openvdb()) {
+    MESSAGE("skipped: built without OpenVDB");
+    return;
+  }
+  const Folder folder;
+  for (const int dimension : {2, 3}) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      const StaticCells cells = cells_of(dimension, 4'400 + seed);
+      const std::string path = folder / "world.vdb";
+      write_static_volume(path, cells);
+      const StaticCells back = read_static_volume(path, plenty), head = read_static_volume_head(path);
+      CAPTURE(dimension);
+      CAPTURE(seed);
+      CHECK(cells_hash(back) == cells_hash(cells));
+      CHECK(back.fit(lattice_of(cells, plenty, Room::whole)));
+      CHECK(head.fit(lattice_of(cells, plenty, Room::whole)));
+      CHECK(head.world == cells.world);
+    }
+  }
+}
+
+TEST_CASE("files that are none, or not whole, are refused") {
+  if (!has_openvdb()) return;
+  const Folder folder;
+  const std::string path = folder / "world.vdb", bad = folder / "bad.vdb";
+  write_static_volume(path, cells_of(3, 4'401));
+  const std::string whole = bytes_of(path);
+  CHECK(refusal(folder / "none.vdb").find("no such file") != std::string::npos);
+  CHECK(refusal(folder / "").find("expected a file") != std::string::npos);
+  write_bytes(bad, "");
+  CHECK(!refusal(bad).empty());
+  write_bytes(bad, "{\"format\": \"gridcull.scene/1\"}");
+  CHECK(!refusal(bad).empty());
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+    write_bytes(bad, text);
+  };
+  replaced("gridcull.static/1", "gridcull.static/2");
+  CHECK(refusal(bad, true).find("expected format gridcull.static/1, found gridcull.static/2") != std::string::npos);
+  replaced("gridcull_format", "gridcull_farmat");
+  CHECK(refusal(bad, true).find("found another .vdb") != std::string::npos);
+  // Nothing is known behind a file's end: wherever it is cut, it is refused.
+  std::size_t cuts = 0;
+  for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 1500, ++cuts) {
+    write_bytes(bad, whole.substr(0, size));
+    CAPTURE(size);
+    CHECK(!refusal(bad).empty());
+  }
+  CHECK(cuts > 1000);
+}
+
+TEST_CASE("memory that is not allowed is not taken") {
+  if (!has_openvdb()) return;
+  const Folder folder;
+  const std::string path = folder / "world.vdb";
+  write_static_volume(path, cells_of(3, 4'401));
+  CHECK_THROWS_AS((void)read_static_volume(path, 48), Error);
+}
+
+}  // namespace
+}  // namespace gridcull::test
