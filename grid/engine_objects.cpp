@@ -28,7 +28,8 @@ std::unique_ptr<ViewAnswerer> make_answerer(const GridOptions& o) {
 }  // namespace
 
 GridEngine::State::State(const GridOptions& o)
-    : options(o), world(make_lattice(o), o.hiding == Hiding::silhouette, o.bound, o.store, o.max_memory),
+    : options(o),
+      world(make_lattice(o), o.hiding == Hiding::silhouette, o.bound, o.store, o.max_memory),
       terms(o.cell) {
   for (int i = 0; i < o.threads; ++i) tasks.push_back(make_answerer(o));
 }

@@ -22,8 +22,8 @@ struct Cell {
 
 /// What a lattice's matrices may take.
 enum class Room {
-  whole,       ///< every brick may hold something: bytes_for() must fit
-  where_needed ///< room is taken where something is, and whoever takes it sees to the limit
+  whole,        ///< every brick may hold something: bytes_for() must fit
+  where_needed  ///< room is taken where something is, and whoever takes it sees to the limit
 };
 
 class Lattice {

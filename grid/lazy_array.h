@@ -35,7 +35,7 @@ class LazyMemory {
 
 /// `T` is made of zero bytes: all elements are that at first. Never grows.
 template <class T>
-  requires std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>
+requires std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>
 class LazyArray {
  public:
   LazyArray() = default;

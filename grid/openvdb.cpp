@@ -14,6 +14,7 @@
 #include "gridcull/grid/openvdb_store.h"
 #include "gridcull/grid/shared_cells.h"
 #include "gridcull/grid/static_volume.h"
+#include "gridcull/grid/vdb_layout.h"
 
 namespace gridcull {
 namespace {
@@ -115,7 +116,8 @@ typename Grid::Ptr make_grid(const char* name, const typename Grid::ValueType& b
   grid->setGridClass(openvdb::GRID_UNKNOWN);
   auto transform = openvdb::math::Transform::createLinearTransform(cells.cell);
   const double half = 0.5 * cells.cell;  // a voxel's place is its middle
-  transform->postTranslate({cells.origin.x + half, cells.origin.y + half, cells.origin.z + (cells.dimension == 3 ? half : 0.0)});
+  transform->postTranslate(
+      {cells.origin.x + half, cells.origin.y + half, cells.origin.z + (cells.dimension == 3 ? half : 0.0)});
   grid->setTransform(transform);
   return grid;
 }
@@ -254,12 +256,8 @@ class PartReader {
 /// Runs `use(file)` on an open file; what OpenVDB or the metadata say against it becomes one line about `path`.
 template <class Use>
 auto with_file(const std::string& path, Use&& use) {
+  check_vdb_layout(path);
   openvdb::initialize();
-  std::error_code fault;
-  const auto status = std::filesystem::status(path, fault);
-  if (!std::filesystem::exists(status)) throw Error(ErrorCode::io, path + ": there is no such file");
-  if (!std::filesystem::is_regular_file(status)) throw Error(ErrorCode::io, path + ": expected a file");
-  if (::access(path.c_str(), R_OK) != 0) throw Error(ErrorCode::io, path + ": cannot be read");
   try {
     openvdb::io::File file(path);
     file.setCopyMaxBytes(0);  // read in place, not from a copy

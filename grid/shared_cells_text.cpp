@@ -10,9 +10,7 @@
 namespace gridcull {
 namespace {
 
-[[noreturn]] void refuse(std::string_view what) {
-  throw Error(ErrorCode::bad_scene, "expected " + std::string(what));
-}
+[[noreturn]] void refuse(std::string_view what) { throw Error(ErrorCode::bad_scene, "expected " + std::string(what)); }
 
 /// Takes a number off the front; false when there is none.
 template <class T>
@@ -30,9 +28,11 @@ bool take(std::string_view& text, char c) {
 }
 
 std::uint32_t member_of(ObjectId id, const StaticCells& cells) {
-  const auto at = std::lower_bound(cells.members.begin(), cells.members.end(), id,
-                                   [](const StaticCells::Member& member, ObjectId wanted) { return member.id < wanted; });
-  if (at == cells.members.end() || at->id != id) refuse("lists of objects that the file names, found " + std::to_string(id));
+  const auto at =
+      std::lower_bound(cells.members.begin(), cells.members.end(), id,
+                       [](const StaticCells::Member& member, ObjectId wanted) { return member.id < wanted; });
+  if (at == cells.members.end() || at->id != id)
+    refuse("lists of objects that the file names, found " + std::to_string(id));
   return static_cast<std::uint32_t>(at - cells.members.begin());
 }
 

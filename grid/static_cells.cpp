@@ -61,8 +61,7 @@ std::optional<StaticCells> discretise_static(const Lattice& lattice, std::span<c
   for (const Object* object : statics) {
     PreparedShape(object->shape).cover(lattice, object->pose, scratch, cover);
     check_brick_memory(out.bricks.size() + cover.bricks.size(), max_memory);
-    out.members.push_back(
-        {object->id, object_hash(*object), out.bricks.size(), cover.bricks.size(), cover.outside});
+    out.members.push_back({object->id, object_hash(*object), out.bricks.size(), cover.bricks.size(), cover.outside});
     for (BrickCover brick : cover.bricks) {
       if (!object->occluder) brick.opaque = 0;
       out.bricks.push_back(brick);

@@ -99,10 +99,10 @@ class TbvMatrix {
     Bounds box{};
   };
   struct Level {
-    Cell cells;               // level cells along each axis
-    int shift = 0;            // level cell = cell >> shift
-    double side = 0;          // metres
-    LazyArray<Home> homes;    // mapped on first use
+    Cell cells;             // level cells along each axis
+    int shift = 0;          // level cell = cell >> shift
+    double side = 0;        // metres
+    LazyArray<Home> homes;  // mapped on first use
     std::uint64_t size = 0;
   };
 
@@ -120,9 +120,9 @@ class TbvMatrix {
   BlockSpan cells_of(const Vec3& low, const Vec3& high, int shift) const;
   const Lattice& lattice_;
   std::vector<Level> levels_;
-  Cell blocks_;                        // along each axis
-  LazyArray<std::uint32_t> counts_;    // per brick: boxes of homes that may touch it
-  Bounds box_;                         // of the lattice
+  Cell blocks_;                      // along each axis
+  LazyArray<std::uint32_t> counts_;  // per brick: boxes of homes that may touch it
+  Bounds box_;                       // of the lattice
   std::vector<Link> links_;
   std::vector<Ball> balls_;
   std::uint64_t size_ = 0;

@@ -35,8 +35,7 @@ void ViewTask::draw_all(DrawSink& sink) const {
     for (std::size_t b = 0; b < grid_.brick_count(); ++b) {
       const std::size_t brick = grid_.lattice_brick(b);
       std::uint64_t touched = 0;
-      world.matrix.each_in_brick(brick,
-                                 [&](const IdentifierMatrix::Entry& entry) { touched |= entry.touched; });
+      world.matrix.each_in_brick(brick, [&](const IdentifierMatrix::Entry& entry) { touched |= entry.touched; });
       draw_bits(lattice, brick, touched, CellLayer::touched, sink);
       draw_bits(lattice, brick, grid_.opaque[b], CellLayer::opaque, sink);
       draw_bits(lattice, brick, grid_.visible[b], CellLayer::visited, sink);

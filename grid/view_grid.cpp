@@ -49,8 +49,9 @@ void ViewGrid::check_size(std::uint64_t max_memory) const {
   const auto along = [&](std::size_t k) { return cells_[k].high - cells_[k].low + 1; };
   const std::uint64_t bytes = Lattice::window_bytes_for(lattice_->dimension(), {along(0), along(1), along(2)});
   if (bytes <= max_memory) return;
-  throw Error(ErrorCode::limit, "what a viewer may see needs " + std::to_string(bytes) + " bytes of cells, more than the " +
-                                    std::to_string(max_memory) + " allowed; give it a smaller range, or larger cells");
+  throw Error(ErrorCode::limit, "what a viewer may see needs " + std::to_string(bytes) +
+                                    " bytes of cells, more than the " + std::to_string(max_memory) +
+                                    " allowed; give it a smaller range, or larger cells");
 }
 
 std::size_t ViewGrid::lattice_brick(std::size_t brick) const {

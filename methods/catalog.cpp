@@ -25,8 +25,9 @@ TbvMode tbv_mode(const std::string& name) {
 }
 
 std::unique_ptr<Culler> make_engine(const MethodOptions& o, Hiding hiding) {
-  return std::make_unique<GridEngine>(GridOptions{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads, o.max_memory,
-                                                  hiding, o.resolution, o.bound, o.store, o.static_cells});
+  return std::make_unique<GridEngine>(GridOptions{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads,
+                                                  o.max_memory, hiding, o.resolution, o.bound, o.store,
+                                                  o.static_cells});
 }
 
 std::unique_ptr<Culler> make_voxel(const MethodOptions& o) { return make_engine(o, Hiding::voxel); }

@@ -35,7 +35,7 @@ struct MethodOptions {
   BakeSettings bake{};                  ///< for baking
   StoreKind store = StoreKind::dense;   ///< `voxel`: where static objects' cells are kept
   std::shared_ptr<const StaticCells> static_cells{};  ///< `voxel`: cells that were discretised before
-  double view_box = 0.0;                ///< five-d-tree: edge of the box about the viewpoint, metres, >= 0
+  double view_box = 0.0;  ///< five-d-tree: edge of the box about the viewpoint, metres, >= 0
 };
 
 /// How a method works in advance; `bake` is nullptr for those that do not.

@@ -68,12 +68,12 @@ int bake_static(const WorldOptions& options, const std::string& out) {
     opaque += static_cast<std::uint64_t>(std::popcount(brick.opaque));
     touched += static_cast<std::uint64_t>(std::popcount(brick.touched));
   }
-  const std::string text =
-      row("scene", options.scene + ", " + counted(cells.members.size(), "static object")) +
-      row("grid", lattice_text(world.lattice)) +
-      row("cells", std::to_string(touched) + " touched, " + std::to_string(opaque) + " of them wholly inside, by object") +
-      row("file", out + ", " + bytes_text(static_cast<double>(std::filesystem::file_size(out)))) +
-      row("time", number_text(seconds, 3) + " s");
+  const std::string text = row("scene", options.scene + ", " + counted(cells.members.size(), "static object")) +
+                           row("grid", lattice_text(world.lattice)) +
+                           row("cells", std::to_string(touched) + " touched, " + std::to_string(opaque) +
+                                            " of them wholly inside, by object") +
+                           row("file", out + ", " + bytes_text(static_cast<double>(std::filesystem::file_size(out)))) +
+                           row("time", number_text(seconds, 3) + " s");
   std::fputs(text.c_str(), stdout);
   return 0;
 }

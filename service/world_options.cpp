@@ -155,7 +155,8 @@ PreparedWorld prepare_scene(const WorldOptions& options, Scene scene, bool alway
   if (volume) {
     if (always_survey) survey = survey_world(scene, options.frames);
     const Lattice lattice = lattice_of(volume->head, options.max_memory, room);
-    LatticeChoice choice{bounds_of(volume->head), lattice.cell(), "those of " + volume->path, "that of " + volume->path};
+    LatticeChoice choice{bounds_of(volume->head), lattice.cell(), "those of " + volume->path,
+                         "that of " + volume->path};
     return {std::move(scene), std::move(survey), std::move(choice), lattice, std::move(volume), store};
   }
   if (always_survey || !scene.bounds || !cell) survey = survey_world(scene, options.frames);

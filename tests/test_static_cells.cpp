@@ -155,7 +155,7 @@ TEST_CASE("an edit writes the bricks of its object and no others") {
     const std::uint64_t added = matrix.static_bricks_written() - before;
     CHECK(added == cover.bricks.size());
     CHECK(added <= 4 * 3 * 7);  // 10 x 8 x 20 m in bricks of 4 m
-    enter(100, {40, 39, 10});  // a step: its bricks, and those it left
+    enter(100, {40, 39, 10});   // a step: its bricks, and those it left
     CHECK(matrix.static_bricks_written() - before - added <= 2 * added);
     const std::uint64_t moved = matrix.static_bricks_written();
     matrix.remove(true, chains[100]);

@@ -19,7 +19,8 @@ TEST_CASE("dense and OpenVDB keep the same") {
   for (const int dimension : {2, 3}) {
     const Vec3 size = dimension == 2 ? Vec3(900, 500, 0) : Vec3(150, 90, 70);
     const Lattice lattice(dimension, {Vec3(0.0), size}, 1.0, std::uint64_t{1} << 30);
-    const auto dense = make_static_store(StoreKind::dense, lattice), vdb = make_static_store(StoreKind::openvdb, lattice);
+    const auto dense = make_static_store(StoreKind::dense, lattice),
+               vdb = make_static_store(StoreKind::openvdb, lattice);
     const std::uint64_t empty = vdb->bytes();
     const auto bricks = static_cast<std::uint32_t>(lattice.brick_count());
     Random random(31);
@@ -45,11 +46,12 @@ TEST_CASE("dense and OpenVDB keep the same") {
       REQUIRE(a == b);
       for (std::size_t i = 0; i < row; ++i) REQUIRE(a[i] == (dense->opaque(brick + i) | i));
     }
+    CHECK(vdb->bytes() > empty);
     for (std::size_t brick = 0; brick < bricks; ++brick) {
       vdb->set_opaque(brick, 0);
       vdb->set_first(brick, StaticStore::nobody);
     }
-    CHECK(vdb->bytes() <= empty + 200'000);  // leaves are given back; the root's children may stay
+    CHECK(vdb->bytes() <= 700'000);  // leaves are given back, the two nodes above them stay
   }
 }
 

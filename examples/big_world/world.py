@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""A big static world: 10 km x 10 km x 200 m, a town of 50,000 buildings, some cars and viewers in its streets; and the
+square kilometre about the viewers cut out of it.
+
+    world.py FOLDER [--cell METRES] [--buildings N] [--viewers N]
+
+writes FOLDER/scene.json and FOLDER/crop.json. The same numbers give the same files."""
+import argparse
+import json
+import math
+import os
+import random
+
+SIDE, HEIGHT = 10000.0, 200.0
+CROP = (4500.0, 5500.0)
+PITCH = 40.0
+
+
+def buildings(count, rng):
+    """Plots on a 40 m pitch, dense in the middle and thinning out, two rows of houses and a street each."""
+    plots = [(x, y) for x in range(int(SIDE / PITCH)) for y in range(int(SIDE / PITCH))]
+    middle = SIDE / PITCH / 2
+    plots.sort(key=lambda p: math.hypot(p[0] - middle, p[1] - middle) * rng.uniform(0.8, 1.25))
+    for number, (x, y) in enumerate(plots[:count]):
+        length, width = rng.uniform(12, 28), rng.uniform(8, 24)
+        far = math.hypot(x - middle, y - middle) / middle
+        height = rng.uniform(4, 12) + max(0.0, 1 - 2 * far) * rng.uniform(0, 60) ** 1.2
+        yield {"id": number, "static": True, "heading": round(rng.uniform(-0.2, 0.2), 6),
+               "shape": {"type": "prism", "vertices": outline(length, width), "height": round(min(height, 190.0), 3)},
+               "position": [round((x + 0.5) * PITCH, 3), round((y + 0.5) * PITCH, 3), 0]}
+
+
+def outline(length, width):
+    """An L, as houses with a yard have."""
+    a, b = round(length / 2, 3), round(width / 2, 3)
+    return [[-a, -b], [a, -b], [a, 0], [0, 0], [0, b], [-a, b]]
+
+
+def cars(first, count, rng):
+    """On the streets between plots, near the middle."""
+    for number in range(count):
+        x = 4520 + PITCH * rng.randrange(24)
+        yield {"id": first + number, "shape": {"type": "box", "size": [4.5, 1.8, 1.5]}, "max_speed": 15,
+               "position": [round(x, 3), round(rng.uniform(4520, 5480), 3), 0.75], "heading": 1.5707963267948966}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("folder")
+    parser.add_argument("--cell", type=float, default=1.0)
+    parser.add_argument("--buildings", type=int, default=50000)
+    parser.add_argument("--viewers", type=int, default=20)
+    arguments = parser.parse_args()
+    rng = random.Random(10)
+    houses = list(buildings(arguments.buildings, rng))
+    moving = list(cars(len(houses), 500, rng))
+    viewers = [{"id": i, "follows": moving[i]["id"], "offset": [0, 0, 0.75], "range": 200} for i in range(arguments.viewers)]
+
+    def write(name, low, high):
+        inside = [o for o in houses if all(low - 40 <= c <= high + 40 for c in o["position"][:2])]
+        scene = {"format": "gridcull.scene/1", "dimension": 3,
+                 "bounds": {"min": [low, low, -1 / 1024], "max": [high, high, HEIGHT - 1 / 1024]},
+                 "grid": {"cell": arguments.cell}, "objects": inside + moving, "viewers": viewers}
+        with open(os.path.join(arguments.folder, name), "w") as file:
+            json.dump(scene, file)
+
+    os.makedirs(arguments.folder, exist_ok=True)
+    write("scene.json", 0.0, SIDE)
+    write("crop.json", *CROP)
+    with open(os.path.join(arguments.folder, "frames.jsonl"), "w") as file:
+        file.write('{"format": "gridcull.frames/1"}\n')
+        for step in range(40):
+            moves = [{"id": o["id"], "position": [o["position"][0], round(o["position"][1] + 0.5 * step, 3), 0.75]}
+                     for o in moving]
+            file.write(json.dumps({"time": 0.1 * step, "set": moves}) + "\n")
+
+
+main()
