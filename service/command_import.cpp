@@ -1,4 +1,5 @@
 // `gridcull import`: worlds recorded by others.
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -13,6 +14,7 @@
 #include "gridcull/service/option_values.h"
 #include "gridcull/service/progress.h"
 #include "gridcull/service/text.h"
+#include "gridcull/sim/import_geojson.h"
 #include "gridcull/sim/import_mesh.h"
 #include "gridcull/sim/import_petrack.h"
 #include "gridcull/sim/import_sumo.h"
@@ -38,6 +40,12 @@ struct MeshCommand {
   std::string split = "parts";
   std::vector<double> orientation{}, heading_degrees{}, move{};
   MeshImportOptions mesh{};
+};
+
+struct GeojsonCommand {
+  std::string out{};
+  std::vector<double> origin{};
+  GeojsonOptions geojson{};
 };
 
 struct PetrackCommand : Shared {
@@ -105,19 +113,36 @@ Pose pose_of(const MeshCommand& options) {
   return out;
 }
 
-int import_mesh_file(MeshCommand options) {
-  options.mesh.split = split_of(options.split);
-  options.mesh.pose = pose_of(options);
-  keep_apart(std::vector<NamedFile>{{"FILE", options.mesh.file}},
-             std::vector<NamedFile>{{"--out", options.out + "/scene.json"}, {"--out", options.out + "/frames.jsonl"}});
-  const Imported imported = import_mesh(options.mesh);
-  WorldFiles files(options.out, 3);
+/// A scene without movers, and one frame.
+template <class Import>
+int write_statics(const std::string& folder, const std::string& file, Import&& import) {
+  keep_apart(std::vector<NamedFile>{{"FILE", file}},
+             std::vector<NamedFile>{{"--out", folder + "/scene.json"}, {"--out", folder + "/frames.jsonl"}});
+  const Imported imported = import();
+  WorldFiles files(folder, imported.scene.dimension);
   files.write(Frame{});
   files.commit(imported.scene);
   for (const std::string& note : imported.notes) std::fprintf(stderr, "gridcull: note: %s\n", note.c_str());
   std::printf("%s -> %s\n", counted(imported.scene.objects.size(), "static object").c_str(),
               files.scene_path().c_str());
   return 0;
+}
+
+int import_mesh_file(MeshCommand options) {
+  options.mesh.split = split_of(options.split);
+  options.mesh.pose = pose_of(options);
+  return write_statics(options.out, options.mesh.file, [&] { return import_mesh(options.mesh); });
+}
+
+int import_geojson_file(GeojsonCommand options) {
+  if (const auto& p = options.origin; !p.empty()) {
+    if (options.geojson.metres) throw Error(ErrorCode::usage, "--origin: metres have one already");
+    if (!(std::fabs(p[0]) <= 180.0 && std::fabs(p[1]) <= 89.9)) {
+      throw Error(ErrorCode::usage, "--origin: expected degrees of longitude and latitude");
+    }
+    options.geojson.origin = {p[0], p[1]};
+  }
+  return write_statics(options.out, options.geojson.file, [&] { return import_geojson(options.geojson); });
 }
 
 int import_petrack_files(PetrackCommand options) {
@@ -222,15 +247,41 @@ void add_mesh(CLI::App& import, Action& action) {
   command.callback([options, &action] { action = [options] { return import_mesh_file(*options); }; });
 }
 
+void add_geojson(CLI::App& import, Action& action) {
+  const auto options = std::make_shared<GeojsonCommand>();
+  CLI::App& command = *import.add_subcommand("geojson", "Building footprints (GeoJSON) as static objects");
+  GeojsonOptions& geojson = options->geojson;
+  add_text(command, "FILE", geojson.file, "a file name", "the footprints (.geojson, .gz, or -)").required();
+  add_text(command, "--out", options->out, "a folder", "folder for scene.json and frames.jsonl")
+      .required()
+      ->type_name("DIR");
+  add_positive(command, "--height", geojson.height, positive_metres(),
+               "a 3D scene; metres of buildings that say nothing of their height (without it a 2D scene)")
+      .type_name("METRES");
+  add_positive(command, "--level-height", geojson.level_height, positive_metres(),
+               "metres a storey, for building:levels (default 3)")
+      .type_name("METRES");
+  command.add_flag("--metres", geojson.metres, "coordinates are metres already, not longitude and latitude");
+  add_numbers(command, "--origin", options->origin, 2, "two numbers LON,LAT",
+              "degrees that become (0, 0) (default: the middle of all)")
+      .type_name("LON,LAT");
+  command.footer(
+      "Example: houses from a map, 8 m high where it does not say\n"
+      "  gridcull import geojson houses.geojson --height 8 --out town");
+  command.callback([options, &action] { action = [options] { return import_geojson_file(*options); }; });
+}
+
 }  // namespace
 
 void add_import_command(CLI::App& app, Action& action) {
-  CLI::App& command = *app.add_subcommand("import", "Write a world from the files of SUMO or PeTrack, or a 3D model");
+  CLI::App& command = *app.add_subcommand(
+      "import", "Write a world from the files of SUMO or PeTrack, a 3D model, or footprints of buildings");
   command.require_subcommand(1);
   command.footer("Example:\n  gridcull import sumo --fcd fcd.xml.gz --buildings town.poly.xml --out town");
   add_sumo(command, action);
   add_petrack(command, action);
   add_mesh(command, action);
+  add_geojson(command, action);
 }
 
 }  // namespace gridcull

@@ -72,6 +72,10 @@ class JsonRef {
   std::vector<JsonRef> items() const;
 
   bool is_string() const { return node().kind == JsonTree::Kind::string; }
+  bool is_number() const { return node().kind == JsonTree::Kind::number || node().kind == JsonTree::Kind::integer; }
+  bool is_null() const { return node().kind == JsonTree::Kind::null; }
+  /// Where it stands in the tree (RFC 6901).
+  std::string pointer() const { return tree_->pointer(node_); }
   double number() const;                                               ///< magnitude at most 1e9
   double positive() const;                                             ///< above 0, at most 1e9
   double not_negative() const;                                         ///< 0 .. 1e9
