@@ -58,6 +58,12 @@ double square(const Vec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 
 CoverageMask::CoverageMask(InstructionSet isa) : kernels_(&masking::kernels_of(isa)) {}
 
+std::uint64_t CoverageMask::bytes_for(int resolution) {
+  MaskFace face;
+  set_cube_face(face, 0, resolution);
+  return 6 * (block_count(face) * sizeof(MaskBlock) + coarse_count(face) * sizeof(std::uint64_t));
+}
+
 void CoverageMask::begin(const ViewVolume& volume, int resolution) {
   face_count_ = 1;
   const bool single = set_window(faces_[0], volume, resolution);

@@ -32,6 +32,9 @@ class CoverageMask {
   /// Allocates only when it needs more than ever before.
   void begin(const ViewVolume& volume, int resolution);
 
+  /// The most that begin() allocates for a resolution: the six faces of a cube.
+  static std::uint64_t bytes_for(int resolution);
+
   /// Every pixel is covered: nothing more can be seen.
   bool full() const { return open_blocks_ == 0; }
 

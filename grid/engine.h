@@ -36,7 +36,7 @@ struct GridOptions {
   double cell = 1.0;                                  ///< metres, > 0
   TbvMode tbv = TbvMode::solid;                       ///< `silhouette` takes hollow as solid
   int threads = 1;                                    ///< 1 .. 256; viewers run in parallel
-  std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes for the matrices
+  std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes for the matrices and masks
   Hiding hiding = Hiding::silhouette;
   int resolution = 0;  ///< `silhouette` in 3D: pixels along the mask's longer side, 8 .. 8192; 0: chosen per viewer
   /// `silhouette` in 3D: the volume that objects are tested with, in their local axes. None, the default: a ball as

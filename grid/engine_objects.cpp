@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/memory_limit.h"
 #include "gridcull/grid/engine_state.h"
 #include "gridcull/grid/silhouette_3d.h"
 #include "gridcull/grid/silhouette_task_2d.h"
@@ -19,6 +20,21 @@ Lattice make_lattice(const GridOptions& o) {
   return {o.dimension, o.bounds, o.cell, o.max_memory, o.store == StoreKind::dense ? Room::whole : Room::where_needed};
 }
 
+/// Every task has a mask of its own, beside the matrices that all share. The standard ones, 0.2 MB each, are not
+/// counted: a grid that fits is not to be refused for them.
+void check_masks(const GridOptions& o, const Lattice& lattice) {
+  if (o.hiding != Hiding::silhouette || o.dimension != 3 || o.resolution == 0) return;
+  // Cells that take room where something is are counted by their store.
+  const std::uint64_t matrices =
+      o.store == StoreKind::dense ? Lattice::bytes_for(o.dimension, lattice.cells()) : std::uint64_t{0};
+  const auto bytes_of = [&](int resolution) {
+    return matrices + static_cast<std::uint64_t>(o.threads) * Silhouette3D::mask_bytes(resolution);
+  };
+  refuse_resolution(o.max_memory, o.resolution,
+                    "the grid and a mask of six faces for each thread (" + std::to_string(o.threads) + ") need",
+                    bytes_of);
+}
+
 std::unique_ptr<ViewAnswerer> make_answerer(const GridOptions& o) {
   if (o.hiding == Hiding::voxel) return std::make_unique<ViewTask>();
   if (o.dimension == 2) return std::make_unique<SilhouetteTask2D>();
@@ -31,6 +47,7 @@ GridEngine::State::State(const GridOptions& o)
     : options(o),
       world(make_lattice(o), o.hiding == Hiding::silhouette, o.bound, o.store, o.max_memory),
       terms(o.cell) {
+  check_masks(o, world.lattice);
   for (int i = 0; i < o.threads; ++i) tasks.push_back(make_answerer(o));
 }
 

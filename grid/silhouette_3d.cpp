@@ -38,6 +38,9 @@ double magnitude(const Vec3& v) { return std::fabs(v.x) + std::fabs(v.y) + std::
 /// How much farther a solid's far end must be than its near end for slices to pay.
 constexpr double worth_slicing = 1.5;
 
+/// A mask is made of blocks of eight rows.
+int whole_blocks(int resolution) { return (resolution + 7) / 8 * 8; }
+
 /// Entries that are worth a test of their node.
 constexpr std::uint32_t few = 2;
 
@@ -125,10 +128,12 @@ void Silhouette3D::begin(const View& view) {
 // A window of 512 pixels costs a few per cent more than one of 256 and a fifth of the over-estimation. A cube has six
 // faces to clear: what a short range leaves does not need as many.
 int Silhouette3D::pixels() const {
-  if (resolution_ > 0) return (resolution_ + 7) / 8 * 8;
+  if (resolution_ > 0) return whole_blocks(resolution_);
   if (!volume_->all_round()) return 512;
   return std::isfinite(volume_->range()) ? 256 : 512;
 }
+
+std::uint64_t Silhouette3D::mask_bytes(int resolution) { return CoverageMask::bytes_for(whole_blocks(resolution)); }
 
 void Silhouette3D::walk() {
   FrontQueue::Item item;

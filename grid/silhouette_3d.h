@@ -21,6 +21,9 @@ class Silhouette3D final : public ViewAnswerer {
   /// `resolution`: pixels along the longer side of the mask; 0: chosen per view.
   Silhouette3D(int resolution, InstructionSet isa) : resolution_(resolution), mask_(isa) {}
 
+  /// The most that its mask takes, whatever the view; resolution > 0.
+  static std::uint64_t mask_bytes(int resolution);
+
   void run(GridWorld& world, const View& view, Answer& answer, ViewResult& result, DrawSink* draw) override;
   std::uint64_t bytes() const override;
 

@@ -15,6 +15,7 @@
 #include <zlib.h>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/memory_limit.h"
 #include "gridcull/methods/baking.h"
 #include "gridcull/methods/bytes.h"
 
@@ -142,7 +143,10 @@ void write_baked(const std::string& path, const BakedHead& head, std::span<const
 
 BakedHead read_baked_head(const std::string& path) { return parse(path, read_all(path)).head; }
 
-std::vector<std::byte> read_baked(const std::string& path, const BakedHead& expected) {
+std::vector<std::byte> read_baked(const std::string& path, const BakedHead& expected, std::uint64_t max_bytes) {
+  std::error_code none;
+  const std::uint64_t size = fs::is_regular_file(path, none) ? fs::file_size(path, none) : 0;
+  if (!none) refuse_above(max_bytes, size, path + ":");
   const std::vector<std::byte> bytes = read_all(path);
   const Container file = parse(path, bytes);
   const BakedHead& head = file.head;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -26,7 +27,9 @@ void write_baked(const std::string& path, const BakedHead& head, std::span<const
 
 /// The payload of a file baked for `expected`. Throws Error(io) when it cannot be read and Error(bad_scene) with one
 /// line when it is no baked file, cut short, altered, of a later version, of another method or of another world.
-std::vector<std::byte> read_baked(const std::string& path, const BakedHead& expected);
+/// Error(limit), before anything is read, for a file of more than `max_bytes`.
+std::vector<std::byte> read_baked(const std::string& path, const BakedHead& expected,
+                                  std::uint64_t max_bytes = std::numeric_limits<std::uint64_t>::max());
 
 /// What a file says it is, without a look at the payload. Throws as read_baked() where it is no whole baked file.
 BakedHead read_baked_head(const std::string& path);

@@ -50,13 +50,13 @@ std::unique_ptr<Culler> make_shadows(const MethodOptions& o) {
 }
 
 std::unique_ptr<Culler> make_depth(const MethodOptions& o) {
-  DepthRaysOptions options{.bounds = o.bounds, .bound = o.bound};
+  DepthRaysOptions options{.bounds = o.bounds, .bound = o.bound, .max_memory = o.max_memory};
   if (o.rays_width > 0) options.width = o.rays_width, options.height = o.rays_height;
   return make_depth_rays(options);
 }
 
 std::unique_ptr<Culler> make_five_d(const MethodOptions& o) {
-  return make_five_d_tree({o.dimension, o.bounds, o.baked, o.view_box, o.threads});
+  return make_five_d_tree({o.dimension, o.bounds, o.baked, o.view_box, o.threads, o.max_memory});
 }
 
 std::optional<std::vector<std::byte>> bake_five_d_tree(std::span<const Object> objects, const MethodOptions& o,
@@ -76,12 +76,12 @@ std::unique_ptr<Culler> make_extended(const MethodOptions& o) {
                                     .resolution = o.resolution,
                                     .threads = o.threads,
                                     .baked = o.baked,
-                                    .max_memory = o.max_memory / 4});
+                                    .max_memory = o.max_memory});
 }
 
 std::optional<std::vector<std::byte>> bake_extended(std::span<const Object> objects, const MethodOptions& o,
                                                     std::span<const std::byte> resume, BakeListener& listener) {
-  return bake_extended_projections(objects, {o.bounds, o.cell, o.threads, o.bake}, resume, listener);
+  return bake_extended_projections(objects, {o.bounds, o.cell, o.threads, o.bake, o.max_memory}, resume, listener);
 }
 
 Baking extended_baking() {
@@ -91,6 +91,7 @@ Baking extended_baking() {
 }  // namespace
 
 std::span<const MethodEntry> method_catalog() {
+  options.max_memory = o.max_memory;
   static const std::array entries{
       MethodEntry{grid_engine_info(Hiding::voxel),
                   "--cell C, --tbv off|solid|hollow|auto, --threads N, --max-memory BYTES", &make_voxel},
@@ -101,9 +102,12 @@ std::span<const MethodEntry> method_catalog() {
       MethodEntry{frustum_culler_info(), "--bounds KIND", &make_frustum},
       MethodEntry{shadow_frusta_info(), "--occluders N (default 8), --bounds KIND", &make_shadows},
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
-      MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72), --bounds KIND", &make_depth},
-      MethodEntry{five_d_tree_info(), "--baked FILE, --view-box METRES", &make_five_d, five_d_baking()},
-      MethodEntry{extended_projections_info(), "--resolution R, --cell C, --threads N, --baked FILE", &make_extended,
+      MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72), --bounds KIND, --max-memory BYTES",
+                  &make_depth},
+      MethodEntry{five_d_tree_info(), "--baked FILE, --view-box METRES, --max-memory BYTES", &make_five_d,
+                  five_d_baking()},
+      MethodEntry{extended_projections_info(),
+                  "--resolution R, --cell C, --threads N, --baked FILE, --max-memory BYTES", &make_extended,
                   extended_baking()}};
   return entries;
 }

@@ -18,6 +18,14 @@ void DepthPyramid::resize(int width, int height) {
   depths_.resize(start);
 }
 
+std::uint64_t DepthPyramid::bytes_for(int width, int height) {
+  std::uint64_t pixels = 0;
+  for (;; width = (width + 1) / 2, height = (height + 1) / 2) {
+    pixels += static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    if (width == 1 && height == 1) return pixels * sizeof(float);
+  }
+}
+
 void DepthPyramid::build() {
   for (std::size_t i = 1; i < levels_.size(); ++i) {
     const Level &fine = levels_[i - 1], &coarse = levels_[i];

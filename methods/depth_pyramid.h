@@ -17,6 +17,8 @@ class DepthPyramid {
  public:
   /// Makes room; storage is reused. 1 .. 8192 pixels along each side.
   void resize(int width, int height);
+  /// What resize() allocates.
+  static std::uint64_t bytes_for(int width, int height);
   /// The finest level, row by row, to be filled before build().
   std::span<float> pixels() { return {depths_.data(), levels_[0].size()}; }
   void build();

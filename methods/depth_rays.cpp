@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/memory_limit.h"
 #include "gridcull/core/trigonometry.h"
 #include "gridcull/methods/depth_pyramid.h"
 #include "gridcull/methods/depth_scene.h"
@@ -101,12 +102,22 @@ Place project(const DepthWindow& w, const Corners& corners, PixelBox& pixels, do
   return Place::in_picture;
 }
 
+/// Pixels along a face of the cube that stands for a picture in all directions: about as many in all.
+int face_of(const DepthRaysOptions& o) {
+  return std::max(1, static_cast<int>(std::lround(std::sqrt(1.0 * o.width * o.height))));
+}
+
+/// One picture, or the six of a view in all directions.
+std::uint64_t picture_bytes(const DepthRaysOptions& o) {
+  return std::max(DepthPyramid::bytes_for(o.width, o.height), 6 * DepthPyramid::bytes_for(face_of(o), face_of(o)));
+}
+
 class DepthRays final : public WorldCuller<FlatWorld> {
  public:
   explicit DepthRays(const DepthRaysOptions& options)
       : WorldCuller(3, options.bound),
         options_(options),
-        face_(std::max(1, static_cast<int>(std::lround(std::sqrt(1.0 * options.width * options.height))))),
+        face_(face_of(options)),
         scene_(options.bounds.empty() ? Vec3(0.0) : options.bounds.centre()) {}
 
   const MethodInfo& info() const override { return depth_rays_info(); }
@@ -238,6 +249,9 @@ std::unique_ptr<Culler> make_depth_rays(const DepthRaysOptions& options) {
     throw Error(ErrorCode::usage, "resolution: expected 1 .. 8192 rays along each side, found " +
                                       std::to_string(options.width) + "x" + std::to_string(options.height));
   }
+  refuse_above(options.max_memory, picture_bytes(options),
+               "resolution: the six pictures of a view in all directions, of as many pixels as " +
+                   std::to_string(options.width) + "x" + std::to_string(options.height) + " each, need");
   return std::make_unique<DepthRays>(options);
 }
 

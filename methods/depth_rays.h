@@ -1,6 +1,7 @@
 // Depth by rays and a hierarchical depth test: what sensor simulators and game engines do in 3D.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -16,9 +17,11 @@ struct DepthRaysOptions {
   /// What objects are tested with, in their local axes. None, the default: their boxes; balls, a box turned to the
   /// view.
   std::optional<BoundKind> bound{};
+  std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes for the pictures
 };
 
-/// Throws Error(usage) for sizes out of range, and where the library was built without Embree.
+/// Throws Error(usage) for sizes out of range, Error(limit) for pictures that take more than max_memory, and where the
+/// library was built without Embree.
 std::unique_ptr<Culler> make_depth_rays(const DepthRaysOptions& options);
 
 const MethodInfo& depth_rays_info();

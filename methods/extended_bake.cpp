@@ -19,6 +19,7 @@
 #include <tbb/task_arena.h>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/memory_limit.h"
 #include "gridcull/methods/bytes.h"
 #include "gridcull/methods/extended_baked.h"
 #include "gridcull/methods/extended_visibility.h"
@@ -137,6 +138,7 @@ class Bake {
         budget_(static_cast<std::size_t>(value_of(options, "budget"))),
         gain_(value_of(options, "gain")),
         arena_(std::clamp(options.threads, 1, tbb::info::default_concurrency())) {
+    check_memory(options);
     std::vector<const Object*> pointers;
     for (const Object& object : objects) pointers.push_back(&object);
     scene_ = make_static_scene(pointers, least_angle(settings_.resolution));
@@ -174,6 +176,15 @@ class Bake {
   }
 
  private:
+  /// Each thread looks out of a cell and of a point of it (worth_halving()).
+  void check_memory(const ExtendedBakeOptions& options) const {
+    const auto threads = static_cast<std::uint64_t>(arena_.max_concurrency());
+    refuse_above(options.max_memory, threads * (2 * view_bytes(settings_) + looker_bytes(settings_)),
+                 "--map: maps of " + std::to_string(settings_.resolution) + " pixels along a side, " +
+                     std::to_string(settings_.planes) + " planes in six directions, two cells for each of " +
+                     std::to_string(threads) + " threads need");
+  }
+
   /// What a cell's parents see and which occluders they touch: what these hide is hidden from the cell by them.
   struct Known {
     const std::vector<std::uint32_t>* visible = nullptr;  ///< null: nothing is known
@@ -200,6 +211,8 @@ class Bake {
       for (const ObjectId id : now.touching) leaf.touching.push_back(place_of(id));
       return;
     }
+    view.outlooks.planes.clear();  // maps of the parents are not kept
+    view.outlooks.planes.shrink_to_fit();
     out.nodes.push_back(NodeKind::split);
     const std::uint64_t half = std::uint64_t{1} << (lattice_.levels - level - 1);
     for (std::uint64_t child = 0; child < 8; ++child) {

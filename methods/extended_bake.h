@@ -23,6 +23,7 @@ struct ExtendedBakeOptions {
   double cell = 1.0;  ///< metres; settings count in it
   int threads = 1;
   BakeSettings settings{};
+  std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes, of the maps of all threads
 };
 
 /// The payload; nothing when the listener stopped it. See methods/catalog.h, Baking.

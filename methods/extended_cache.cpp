@@ -5,6 +5,7 @@
 
 #include <tbb/info.h>
 
+#include "gridcull/core/memory_limit.h"
 #include "gridcull/methods/parallel.h"
 
 namespace gridcull::extended {
@@ -13,10 +14,23 @@ CellCache::CellCache(const Bounds& bounds, double edge, const CellSettings& sett
                      int threads)
     : edge_(edge),
       settings_(settings),
-      max_bytes_(max_bytes),
+      kept_bytes_(max_bytes / 4),
       arena_(std::min(threads, tbb::info::default_concurrency())),
       lookers_(static_cast<std::size_t>(arena_.max_concurrency())) {
   if (!bounds.empty()) origin_ = bounds.min;
+  const auto scratch = [&](const CellSettings& s) { return lookers_.size() * looker_bytes(s); };
+  const auto bytes_of = [&](int resolution) {
+    CellSettings other = settings_;
+    other.resolution = resolution;
+    return scratch(other) + 3 * view_bytes(other);
+  };
+  refuse_resolution(
+      max_bytes, settings_.resolution,
+      "the maps of three cells, " + std::to_string(settings_.planes) + " planes in six directions each, need",
+      bytes_of);
+  const std::uint64_t room = (max_bytes - scratch(settings_)) / view_bytes(settings_);
+  views_at_once_ =
+      static_cast<std::size_t>(std::max<std::uint64_t>(1, (room - std::max<std::uint64_t>(1, room / 4)) / 2));
 }
 
 void CellCache::reset(const StaticScene& scene) {
@@ -85,7 +99,7 @@ void CellCache::trim() {
   };
   std::uint64_t bytes = 0;
   for (const auto& [key, entry] : cells_) bytes += bytes_of(entry);
-  while (bytes > max_bytes_ && cells_.size() > 1) {
+  while (bytes > kept_bytes_ && cells_.size() > 1) {
     const auto oldest = std::min_element(cells_.begin(), cells_.end(),
                                          [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
     bytes -= bytes_of(oldest->second);

@@ -26,7 +26,12 @@ struct CellKey {
 
 class CellCache {
  public:
+  /// Throws Error(limit) where not even the maps of three cells fit into `max_bytes`: one kept, and for one view its
+  /// cell and that cell without an occluder.
   CellCache(const Bounds& bounds, double edge, const CellSettings& settings, std::uint64_t max_bytes, int threads);
+
+  /// How many views' cells may be asked for between two trim()s.
+  std::size_t views_at_once() const { return views_at_once_; }
 
   /// Forgets all cells; from now on `scene` is looked at, which outlives its use.
   void reset(const StaticScene& scene);
@@ -37,7 +42,7 @@ class CellCache {
   void need(std::vector<CellKey>& keys);
   /// A cell that need() was asked for since the last trim().
   const CellView& at(const CellKey& key) const { return *cells_.at(key).view; }
-  /// Forgets the cells that nobody needed for longest until the others fit into the memory.
+  /// Forgets the cells that nobody needed for longest until the others fit into a quarter of the memory.
   void trim();
 
  private:
@@ -51,7 +56,8 @@ class CellCache {
   double floor_ = 0.0;
   double edge_;
   CellSettings settings_;
-  std::uint64_t max_bytes_;
+  std::uint64_t kept_bytes_;
+  std::size_t views_at_once_ = 1;
   tbb::task_arena arena_;
   std::vector<std::unique_ptr<CellLooker>> lookers_{};
   std::map<CellKey, Entry> cells_{};

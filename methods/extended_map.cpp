@@ -23,6 +23,14 @@ void DepthMap::reset(int resolution) {
   std::fill(farthest_.begin(), farthest_.begin() + pixels, uncovered);
 }
 
+std::uint64_t DepthMap::bytes_for(int resolution) {
+  std::uint64_t pixels = 0;
+  for (int size = resolution;; size = (size + 1) / 2) {
+    pixels += static_cast<std::uint64_t>(size) * static_cast<std::uint64_t>(size);
+    if (size == 1) return pixels * (sizeof(float) + sizeof(float));
+  }
+}
+
 void DepthMap::cover(int row, int left, int right, float depth) {
   float* pixel = &farthest_[index(0, left, row)];
   for (int x = left; x <= right; ++x, ++pixel) *pixel = std::min(*pixel, depth);

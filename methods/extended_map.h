@@ -27,6 +27,8 @@ class DepthMap {
 
   /// Empties it; storage is reused. 1 .. 8192 pixels along a side.
   void reset(int resolution);
+  /// What a map of this resolution takes.
+  static std::uint64_t bytes_for(int resolution);
   int resolution() const { return size_; }
   bool empty() const { return size_ == 0; }
 

@@ -49,7 +49,8 @@ class ExtendedProjections final : public WorldCuller<FlatWorld> {
       : WorldCuller(3),
         settings_(settings_of(o)),
         cells_(o.bounds, o.cell, settings_, o.max_memory, o.threads),
-        baked_file_(o.baked) {}
+        baked_file_(o.baked),
+        max_memory_(o.max_memory) {}
 
   const MethodInfo& info() const override { return extended_projections_info(); }
 
@@ -59,12 +60,17 @@ class ExtendedProjections final : public WorldCuller<FlatWorld> {
     refresh();  // first: a baked file that is refused leaves the frame unanswered and everything as it was
     world_.begin_frame(time, views, stats);
     stats.discretise_us = lap.next();
-    baked_ ? find_leaves(views) : find_cells(views);
-    stats.occlude_us = lap.next();
     out.views.resize(views.size());
-    for (std::size_t i = 0; i < views.size(); ++i) answer(views[i], i, out.views[i]);
-    cells_.trim();
-    stats.collect_us = lap.next();
+    // As many views at once as their cells' maps have room for; a baked file holds no maps.
+    const std::size_t at_once = baked_ ? std::max<std::size_t>(1, views.size()) : cells_.views_at_once();
+    for (std::size_t first = 0; first < views.size(); first += at_once) {
+      const auto some = views.subspan(first, std::min(at_once, views.size() - first));
+      baked_ ? find_leaves(some) : find_cells(some);
+      stats.occlude_us += lap.next();
+      for (std::size_t i = 0; i < some.size(); ++i) answer(some[i], i, out.views[first + i]);
+      cells_.trim();
+      stats.collect_us += lap.next();
+    }
     stats.total_us = whole.next();
     out.stats = stats;
   }
@@ -94,7 +100,7 @@ class ExtendedProjections final : public WorldCuller<FlatWorld> {
     std::vector<Object> objects;
     for (const FlatObject& flat : world_.objects()) objects.push_back(flat.object);
     const BakedHead head{std::string(info().name), extended_baked_version, static_world_hash(objects)};
-    const std::vector<std::byte> payload = read_baked(baked_file_, head);
+    const std::vector<std::byte> payload = read_baked(baked_file_, head, max_memory_);
     ByteReader in(payload, baked_file_);
     auto baked = std::make_unique<extended::BakedCells>(in);
     in.finish();
@@ -233,6 +239,7 @@ class ExtendedProjections final : public WorldCuller<FlatWorld> {
   extended::StaticScene scene_{};
   extended::CellCache cells_;
   std::string baked_file_;
+  std::uint64_t max_memory_;
   std::unique_ptr<extended::BakedCells> baked_{};
   std::vector<Leaf> leaves_{};
   std::vector<std::uint32_t> movers_{};  ///< places in world_

@@ -294,6 +294,16 @@ void CellLooker::sweep(CellView& out) {
   }
 }
 
+std::uint64_t view_bytes(const CellSettings& settings) {
+  return facings.size() * static_cast<std::uint64_t>(settings.planes) * DepthMap::bytes_for(settings.resolution);
+}
+
+// The sweep's summed-area table, and the rough map.
+std::uint64_t looker_bytes(const CellSettings& settings) {
+  const std::uint64_t side = static_cast<std::uint64_t>(settings.resolution) + 1;
+  return side * side * sizeof(std::uint32_t) + DepthMap::bytes_for(std::max(8, settings.resolution / rough_share));
+}
+
 void CellLooker::look(const ViewCell& cell, bool above_floor, ObjectId without,
                       const std::vector<std::uint32_t>* candidates, CellView& out) {
   above_floor_ = above_floor;

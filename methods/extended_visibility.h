@@ -33,6 +33,10 @@ struct CellView {
   std::uint64_t drawn = 0;               ///< occluders put into maps
 };
 
+/// The most that the maps of one cell take, and what a looker takes besides.
+std::uint64_t view_bytes(const CellSettings& settings);
+std::uint64_t looker_bytes(const CellSettings& settings);
+
 /// Looks out of cells of one scene; storage is reused. Not for two threads at once.
 class CellLooker {
  public:

@@ -15,6 +15,7 @@
 #include <tbb/task_arena.h>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/memory_limit.h"
 #include "gridcull/methods/bytes.h"
 #include "gridcull/methods/five_d_payload.h"
 #include "gridcull/methods/five_d_subtree.h"
@@ -189,6 +190,18 @@ void Bake::resume(std::span<const std::byte> state) {
   in.finish();
 }
 
+/// The leaves' sets when there are as many leaves and motion boxes as allowed, twice: in parts and joined.
+void check_memory(std::span<const Object> objects, const FiveDOptions& options) {
+  const auto statics = std::count_if(objects.begin(), objects.end(), [](const Object& o) { return o.is_static; });
+  const std::uint64_t words =
+      (static_cast<std::uint64_t>(statics) + static_cast<std::uint64_t>(options.boxes) + 63) / 64;
+  const std::uint64_t leaves =
+      static_cast<std::uint64_t>(options.cells) * static_cast<std::uint64_t>(options.intervals);
+  refuse_above(options.max_memory, 2 * leaves * words * sizeof(std::uint64_t),
+               "--cells: " + std::to_string(options.cells) + " cells with " + std::to_string(options.boxes) +
+                   " motion boxes may take");
+}
+
 /// Another thread works; this one tells the listener how far it is.
 void build_and_report(Bake& bake, BakeListener& listener) {
   std::exception_ptr fault;
@@ -223,6 +236,7 @@ std::optional<FiveDBaked> bake_five_d(std::span<const Object> objects, int dimen
   if (options.threads < 1 || options.threads > 256) {
     throw Error(ErrorCode::usage, "threads: expected 1 .. 256, found " + std::to_string(options.threads));
   }
+  check_memory(objects, options);
   Bake bake(objects, dimension, bounds, options);
   bake.grow_top();
   if (!resume.empty()) bake.resume(resume);

@@ -1,6 +1,7 @@
 // What the five-dimensional tree is built with; names after the paper (methods/five_d_tree.cpp).
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "gridcull/methods/baking.h"
@@ -20,6 +21,7 @@ struct FiveDOptions {
   int boxes = 512;                ///< motion boxes, which stand for moving objects; 0: movers are only culled by view
   double low = -1e9, high = 1e9;  ///< 3D: heights of viewpoints; as they are: where something moves
   int threads = 1;                ///< of the bake; 1 .. 256
+  std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes, of the leaves' sets
 };
 
 /// The settings of `gridcull bake`, and the options they make.

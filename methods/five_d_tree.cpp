@@ -91,7 +91,7 @@ class FiveDTreeCuller final : public WorldCuller<FlatWorld> {
     if (is_ready_ || options_.baked.empty()) return;
     const Contents now = contents();
     const BakedHead head{std::string(five_d_tree_info().name), five_d_version, static_world_hash(now.objects)};
-    FiveDBaked baked = read_five_d_payload(read_baked(options_.baked, head), options_.baked);
+    FiveDBaked baked = read_five_d_payload(read_baked(options_.baked, head, options_.max_memory), options_.baked);
     if (baked.space.dimension != options_.dimension || baked.space.statics != now.statics) {
       throw Error(ErrorCode::bad_scene, options_.baked + ": altered: its members are not the scene's");
     }

@@ -1,6 +1,7 @@
 // The five-dimensional tree of Gotsman, Sudarsky and Fayman 1999.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -16,6 +17,7 @@ struct FiveDTreeOptions {
   std::string baked{};    ///< file from `gridcull bake`; "": the tree is baked small at the first query
   double view_box = 0.0;  ///< edge of the box about a viewpoint that a query takes, metres, >= 0
   int threads = 1;        ///< for baking
+  std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< bytes, of the file
 };
 
 /// Version of what is baked.

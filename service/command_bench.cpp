@@ -334,7 +334,7 @@ void add_options(CLI::App& command, BenchOptions& o) {
                "a contender that has used more on a scene is stopped (default 20)")
       .type_name("S");
   add_whole(command, "--max-memory", o.choice.max_memory, memory_bytes(),
-            "refuse grids larger than this (default 4 GiB)")
+            "refuse grids, masks and maps that would take more than this (default 4 GiB)")
       .type_name("BYTES");
   CLI::Option* const stability = command.add_flag(
       "--stability", o.stability,

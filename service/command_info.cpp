@@ -105,7 +105,7 @@ std::string first_frame(const WorldOptions& options, const PreparedWorld& world,
 }
 
 /// What a baked file holds; one of another scene is refused.
-std::string baked_text(const std::string& path, const Scene& scene) {
+std::string baked_text(const std::string& path, const Scene& scene, std::uint64_t max_memory) {
   BakedHead head = read_baked_head(path);
   const MethodEntry& method = find_method(head.method, path);
   if (method.baking.bake == nullptr)
@@ -114,7 +114,7 @@ std::string baked_text(const std::string& path, const Scene& scene) {
   for (const SceneObject& object : scene.objects) objects.push_back(object.object);
   head.version = method.baking.version;
   head.world = static_world_hash(objects);
-  return row("baked", path + ", for " + head.method) + method.baking.describe(read_baked(path, head));
+  return row("baked", path + ", for " + head.method) + method.baking.describe(read_baked(path, head, max_memory));
 }
 
 int info(const WorldOptions& options) {
@@ -131,7 +131,7 @@ int info(const WorldOptions& options) {
   text += row("cell-less", cell_less(world));
   if (!reads_once(options.frames)) text += first_frame(options, world, Hiding::voxel);
   text += first_frame(options, world, Hiding::silhouette);
-  if (!options.baked.empty()) text += baked_text(options.baked, world.scene);
+  if (!options.baked.empty()) text += baked_text(options.baked, world.scene, options.max_memory);
   std::fputs(text.c_str(), stdout);
   return 0;
 }

@@ -100,7 +100,7 @@ void add_scene_options(CLI::App& command, WorldOptions& options) {
   add_positive(command, "--cell", options.cell, positive_metres(), "cell size in metres; overrides the scene's")
       .type_name("METRES");
   add_whole(command, "--max-memory", options.max_memory, memory_bytes(),
-            "refuse grids larger than this (default 4 GiB)")
+            "refuse grids, masks and maps that would take more than this (default 4 GiB)")
       .type_name("BYTES");
 }
 

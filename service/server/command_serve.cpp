@@ -65,7 +65,8 @@ void add_serve_command(CLI::App& app, Action& action) {
   add_whole(command, "--max-sessions", server.max_sessions, {1, most, "1 or more"}, "default 100");
   add_whole(command, "--max-objects", server.max_objects, {1, most, "1 or more"}, "of a session (default 1,000,000)");
   add_whole(command, "--max-message", server.max_message, memory_bytes(), "default 64 MiB").type_name("BYTES");
-  add_whole(command, "--max-memory", server.max_memory, memory_bytes(), "of a session's grid (default 1 GiB)")
+  add_whole(command, "--max-memory", server.max_memory, memory_bytes(),
+            "of a session's grid, masks and maps (default 1 GiB)")
       .type_name("BYTES");
   add_whole(command, "--max-connections", server.max_connections, {1, most, "1 or more"},
             "further ones are closed at once (default 1024)");

@@ -75,6 +75,31 @@ refused "--max-memory" "would fit" run s.json --max-memory 100000 "${everything[
 fits=$(sed -n 's/.*a cell of \([0-9.e+-]*\) m would fit.*/\1/p' stderr.txt)
 good "a cell of $fits fits" info s.json --cell "$fits" --max-memory 100000
 
+# So do masks and maps, which are held against it before any of them is made.
+printf '%s\n' '{"format": "gridcull.scene/1", "dimension": 3, "bounds": {"min": [0, 0, 0], "max": [20, 20, 20]},
+  "grid": {"cell": 2}, "objects": [{"id": 1, "static": true, "shape": {"type": "box", "size": [4, 2, 3]},
+  "position": [9, 9, 9]}], "viewers": [{"id": 1, "position": [3, 3, 3]}]}' >solid.json
+too_large() { refused "too large: $1" "$2, more than the [0-9]+ allowed$3" "${@:4}"; }
+too_large "a cube of masks" "resolution: 8192 pixels .* need [0-9]+ bytes" "; 4096 would fit" \
+  run solid.json --resolution 8192 --max-memory 40000000 "${everything[@]}"
+too_large "masks of many threads" "a mask .* \(256\) need [0-9]+ bytes" "; 4096 would fit" \
+  run solid.json --resolution 8192 --threads 256 "${everything[@]}"
+too_large "masks (check)" "resolution: 8192 .* bytes" "" check solid.json --resolution 8192 --max-memory 40000000
+good "a cube of masks that fits" run solid.json --resolution 4096 --max-memory 40000000
+too_large "maps of cells" "the maps of three cells, .* need [0-9]+ bytes" "; 2048 would fit" \
+  run solid.json --method extended-projections --resolution 8192 "${everything[@]}"
+too_large "maps to bake with" "--map: maps of 4096 pixels .* need [0-9]+ bytes" "" \
+  bake --method extended-projections solid.json --map 4096 --planes 16 --out out/x
+too_large "sets to bake" "--cells: 1048576 cells with 1048576 motion boxes may take [0-9]+ bytes" "" \
+  bake --method five-d-tree solid.json --cells 1048576 --boxes 1048576 --out out/x
+good "a file to read" bake --method five-d-tree solid.json --cells 8 --boxes 8 --out small.baked
+too_large "a baked file" "small.baked: [0-9]+ bytes" "" \
+  run solid.json --method five-d-tree --cell 20 --baked small.baked --max-memory 200
+if "$program" check solid.json --method depth-rays >stdout.txt 2>&1; then  # built with Embree
+  too_large "pictures" "resolution: the six pictures .* need [0-9]+ bytes" "" \
+    run solid.json --method depth-rays --resolution 8192x8192 --max-memory 1000000000 "${everything[@]}"
+fi
+
 # Frames
 scene s.json "$box" "$eye"
 bad_frames() {
