@@ -1,6 +1,7 @@
 #include "gridcull/methods/catalog.h"
 
 #include <array>
+#include <sstream>
 
 #include "gridcull/core/error.h"
 #include "gridcull/grid/engine.h"
@@ -45,8 +46,35 @@ std::unique_ptr<Culler> make_pairwise(const MethodOptions& o) {
   return make_pairwise_rays({o.dimension, o.bounds, o.threads});
 }
 
+OccluderWeights weights_of(const std::string& criteria) {
+  OccluderWeights weights{0.0, 0.0, 0.0};
+  std::istringstream names(criteria + ",");
+  for (std::string name; std::getline(names, name, ',');) {
+    double* weight = name == "area-angle" ? &weights.angle
+                     : name == "sampled"  ? &weights.sampled
+                     : name == "recent"   ? &weights.recent
+                                          : nullptr;
+    if (weight == nullptr || *weight > 0.0) {
+      throw Error(ErrorCode::usage, "--criteria: expected some of area-angle, sampled and recent, found " + criteria);
+    }
+    *weight = 1.0;
+  }
+  return weights;
+}
+
+/// Whether it is the second of two words.
+bool is_second(const char* option, const std::string& value, const char* first, const char* second) {
+  if (value == first || value == second) return value == second;
+  throw Error(ErrorCode::usage, std::string(option) + ": expected " + first + " or " + second + ", found " + value);
+}
+
 std::unique_ptr<Culler> make_shadows(const MethodOptions& o) {
-  return make_shadow_frusta({.dimension = o.dimension, .occluders = o.occluders, .bound = o.bound});
+  return make_shadow_frusta({.dimension = o.dimension,
+                             .occluders = o.occluders,
+                             .unions = !is_second("--unions", o.unions, "on", "off"),
+                             .exact = is_second("--overlap", o.overlap, "planes", "exact"),
+                             .bound = o.bound,
+                             .weights = weights_of(o.criteria)});
 }
 
 std::unique_ptr<Culler> make_depth(const MethodOptions& o) {
@@ -63,6 +91,7 @@ std::optional<std::vector<std::byte>> bake_five_d_tree(std::span<const Object> o
                                                        std::span<const std::byte> resume, BakeListener& listener) {
   FiveDOptions options = five_d_options(o.bake);
   options.threads = o.threads;
+  options.max_memory = o.max_memory;
   const auto baked = bake_five_d(objects, o.dimension, o.bounds, options, resume, &listener);
   if (!baked) return std::nullopt;
   return five_d_payload(*baked);
@@ -91,7 +120,6 @@ Baking extended_baking() {
 }  // namespace
 
 std::span<const MethodEntry> method_catalog() {
-  options.max_memory = o.max_memory;
   static const std::array entries{
       MethodEntry{grid_engine_info(Hiding::voxel),
                   "--cell C, --tbv off|solid|hollow|auto, --threads N, --max-memory BYTES", &make_voxel},
@@ -100,7 +128,11 @@ std::span<const MethodEntry> method_catalog() {
           "--resolution R (3D), --bounds KIND (3D), --cell C, --tbv off|solid|auto, --threads N, --max-memory BYTES",
           &make_silhouette},
       MethodEntry{frustum_culler_info(), "--bounds KIND", &make_frustum},
-      MethodEntry{shadow_frusta_info(), "--occluders N (default 8), --bounds KIND", &make_shadows},
+      MethodEntry{
+          shadow_frusta_info(),
+          "--occluders N (default 8), --criteria area-angle,sampled,recent (or some of these), --unions on|off, "
+          "--overlap planes|exact, --bounds KIND",
+          &make_shadows},
       MethodEntry{pairwise_rays_info(), "--threads N", &make_pairwise},
       MethodEntry{depth_rays_info(), "--resolution WxH (default 128x72), --bounds KIND, --max-memory BYTES",
                   &make_depth},
@@ -133,6 +165,15 @@ std::unique_ptr<Culler> make_method(std::string_view name, const MethodOptions& 
   if (options.bound && entry.options.find("--bounds") == std::string_view::npos) {
     throw Error(ErrorCode::usage, "--bounds: " + std::string(name) + " tests no bounds");
   }
+  const MethodOptions standard;
+  const auto refuse_others = [&entry](const char* option, bool given) {
+    if (given && entry.options.find(option) == std::string_view::npos) {
+      throw Error(ErrorCode::usage, std::string(option) + ": no option of " + std::string(entry.info.name));
+    }
+  };
+  refuse_others("--criteria", options.criteria != standard.criteria);
+  refuse_others("--unions", options.unions != standard.unions);
+  refuse_others("--overlap", options.overlap != standard.overlap);
   return entry.make(options);
 }
 

@@ -30,11 +30,14 @@ struct MethodOptions {
   int resolution = 0;                   ///< pixels along a cube face's edge, 1 .. 8192; 0: the method's default
   int rays_width = 0, rays_height = 0;  ///< rays of a picture, 1 .. 8192 each; 0: the method's default
   int occluders = 8;                    ///< `shadow-frusta`: used at most, each frame and viewer, 1 .. 64
-  std::optional<BoundKind> bound{};     ///< what objects are tested with; none: the method's own choice
-  std::string baked{};                  ///< file that the method reads instead of baking; "": none
-  BakeSettings bake{};                  ///< for baking
-  StoreKind store = StoreKind::dense;   ///< `voxel`: where static objects' cells are kept
-  std::shared_ptr<const StaticCells> static_cells{};  ///< `voxel`: cells that were discretised before
+  std::string criteria = "area-angle,sampled,recent";  ///< `shadow-frusta`: what occluders are ranked by, some of these
+  std::string unions = "on";                           ///< `shadow-frusta`: on, off
+  std::string overlap = "planes";                      ///< `shadow-frusta`: planes, exact
+  std::optional<BoundKind> bound{};                    ///< what objects are tested with; none: the method's own choice
+  std::string baked{};                                 ///< file that the method reads instead of baking; "": none
+  BakeSettings bake{};                                 ///< for baking
+  StoreKind store = StoreKind::dense;                  ///< `voxel`: where static objects' cells are kept
+  std::shared_ptr<const StaticCells> static_cells{};   ///< `voxel`: cells that were discretised before
   double view_box = 0.0;  ///< five-d-tree: edge of the box about the viewpoint, metres, >= 0
 };
 

@@ -136,6 +136,16 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
       .type_name("KIND");
   add_whole(command, "--occluders", options.occluders, {1, 64, "1 .. 64"},
             "shadow-frusta: used at most for each frame and viewer, 1 .. 64 (default 8)");
+  add_text(
+      command, "--criteria", options.criteria, "some of area-angle, sampled and recent",
+      "shadow-frusta: what occluders are ranked by, some of area-angle (what they cover now), sampled (what they hide "
+      "from nearby) and recent (what they hid in the viewer's last frame), with commas between (default all three)")
+      .type_name("NAMES");
+  add_text(command, "--unions", options.unions, "on or off",
+           "shadow-frusta: whether two occluders may hide an object together (default on)");
+  add_text(command, "--overlap", options.overlap, "planes or exact",
+           "shadow-frusta: how boxes are held against a frustum, plane by plane (default) or exactly: more work, "
+           "seldom another answer");
   command.add_flag("--pull", options.pull,
                    "the method asks for the positions that it needs, instead of being told all");
 }
@@ -177,6 +187,9 @@ MethodOptions method_options(const WorldOptions& options, const PreparedWorld& w
   method.max_memory = options.max_memory;
   method.occluders = options.occluders;
   method.store = world.store;
+  method.criteria = options.criteria;
+  method.unions = options.unions;
+  method.overlap = options.overlap;
   return method;
 }
 

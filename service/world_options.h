@@ -40,6 +40,9 @@ struct WorldOptions {
   std::string bounds{};  ///< a name of core/bound_kind.h; "": the method's default
   int occluders = MethodOptions{}.occluders;
   std::string store{};  ///< dense or openvdb; "": openvdb where the scene has a static volume, else dense
+  std::string criteria{MethodOptions{}.criteria};
+  std::string unions{MethodOptions{}.unions};
+  std::string overlap{MethodOptions{}.overlap};
 };
 
 /// The lattice; a refusal of the cell begins with where it comes from: "--cell", "s.json: /grid/cell".

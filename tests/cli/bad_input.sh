@@ -211,6 +211,14 @@ refused "unknown kind of TBV, frustum" "tbv" run s.json --method frustum --tbv s
 for bad in 0 -3 65 many 8.5 ""; do
   refused "occluders '$bad'" "occluders" run s.json --method shadow-frusta --occluders "$bad" "${everything[@]}"
 done
+refused "ranked by nothing known" "--criteria: expected some of area-angle, sampled and recent, found size" \
+  run s.json --method shadow-frusta --criteria size "${everything[@]}"
+refused "ranked twice by one" "--criteria" run s.json --method shadow-frusta --criteria recent,recent "${everything[@]}"
+refused "unions of a kind" "--unions: expected on or off, found some" \
+  run s.json --method shadow-frusta --unions some "${everything[@]}"
+refused "an overlap of a kind" "--overlap: expected planes or exact" \
+  run s.json --method shadow-frusta --overlap nearly "${everything[@]}"
+refused "another method's option" "--unions: no option of voxel" run s.json --method voxel --unions off "${everything[@]}"
 refused "no rays" "rays" check s.json --rays 0
 refused "picture without a file" "picture" run s.json --picture 1:2
 refused "unknown scene to make" "volcano" make volcano --out out/v
