@@ -2,6 +2,8 @@
 # Baking: a file that run, check, info and bench take, breaks that cost nothing, and files that are refused.
 source "$(dirname "$0")/library.sh"
 set -m  # jobs of their own, so that they do not ignore SIGINT
+# A shell that was itself started with SIGINT ignored (a background job) cannot give it back to its jobs; env can.
+heeding=(env --default-signal=INT)
 
 good "make town" make town --out town --count 64 --viewers 3 --range 80 --frames 6
 good "make another" make town --out other --count 64 --viewers 3 --range 80 --frames 6 --seed 9
@@ -26,24 +28,33 @@ good "bench" bench --scenes town/scene.json@town/frames.jsonl --methods five-d-t
   --baked town.baked
 rm -f out/*
 
-# A break: FILE.part, and the same file in the end.
+# A break: FILE.part, and the same file in the end. slow.baked.part is left to look at.
 slow=(--method five-d-tree --s-thresh 0.002 --cells 300 --boxes 128 town/scene.json)
-checks=$((checks + 1))
-"$program" bake "${slow[@]}" --out out/slow.baked >stdout.txt 2>stderr.txt &
-child=$!
-sleep 0.7
-kill -s INT "$child"
-wait "$child"
-is "status after Ctrl-C" $? 130
-is "left after Ctrl-C" "$(ls out)" "slow.baked.part"
-grep -q '^gridcull: stopped; out/slow.baked.part holds the work so far' stderr.txt || fail "Ctrl-C: $(cat stderr.txt)"
-cp out/slow.baked.part .
-good "the same command again" bake "${slow[@]}" --out out/slow.baked
-grep -q "gone on from out/slow.baked.part" stdout.txt || fail "it did not go on: $(cat stdout.txt)"
-is "left in the end" "$(ls out)" "slow.baked"
-good "without a break" bake "${slow[@]}" --out whole.baked
-same "with and without a break" out/slow.baked whole.baked
-rm -f out/*
+broken_off() {  # broken_off NAME ARGUMENTS...
+  local name=$1 child
+  shift
+  checks=$((checks + 1))
+  "${heeding[@]}" "$program" bake "$@" --out out/slow.baked >stdout.txt 2>stderr.txt &
+  child=$!
+  sleep 0.7
+  kill -s INT "$child"
+  wait "$child"
+  is "$name: status after Ctrl-C" $? 130
+  is "$name: left after Ctrl-C" "$(ls out)" "slow.baked.part"
+  grep -q '^gridcull: stopped; out/slow.baked.part holds the work so far' stderr.txt || fail "$name: $(cat stderr.txt)"
+  cp out/slow.baked.part .
+  good "$name: the same command again" bake "$@" --out out/slow.baked
+  grep -q "gone on from out/slow.baked.part" stdout.txt || fail "$name: it did not go on: $(cat stdout.txt)"
+  is "$name: left in the end" "$(ls out)" "slow.baked"
+  good "$name: without a break" bake "$@" --out whole.baked
+  same "$name: with and without a break" out/slow.baked whole.baked
+  rm -f out/*
+}
+good "make city" make city --out city --blocks 3 --count 20 --frames 2
+broken_off "cells" --method extended-projections --map 128 --threads 1 city/scene.json
+mv slow.baked.part cells.part
+mv whole.baked cells.baked
+broken_off "tree" "${slow[@]}"
 
 # Unfinished work of something else.
 unfinished() {  # unfinished NAME WORD ARGUMENTS...: FILE.part stays as it is
@@ -78,6 +89,28 @@ refused "another world (check)" "another world" check other/scene.json --method 
 refused "another world (info)" "another world" info other/scene.json --baked town.baked
 refused "another world (bench)" "none of the scenes" bench --scenes other/scene.json --methods five-d-tree --baked town.baked
 refused "a method that does not bake" "reads no baked file" run town/scene.json --method frustum --baked town.baked
+
+# Those of the other method that bakes.
+good "make another city" make city --out elsewhere --blocks 3 --count 20 --frames 2 --seed 9
+looking=(run city/scene.json --method extended-projections --out out/pvs.jsonl)
+good "cells" "${looking[@]}" --baked cells.baked
+rm -f out/*
+head -c 1000 cells.baked >cut.baked
+refused "cells cut short" "cut.baked: cut short" "${looking[@]}" --baked cut.baked
+{ head -c 1000 cells.baked; printf 'x'; tail -c +1002 cells.baked; } >altered.baked
+refused "cells altered" "altered.baked: altered" "${looking[@]}" --baked altered.baked
+{ head -c 8 cells.baked; printf '\x07'; tail -c +10 cells.baked; } >future.baked
+refused "cells from the future" "version 7 of baked files" "${looking[@]}" --baked future.baked
+refused "cells of another world" "another world" \
+  run elsewhere/scene.json --method extended-projections --baked cells.baked --out out/pvs.jsonl
+refused "cells for the tree" "for the method extended-projections" \
+  run city/scene.json --method five-d-tree --baked cells.baked --out out/pvs.jsonl
+refused "cells of a flat world" "does not take 2D" bake --method extended-projections town/scene.json --out out/x
+cp cells.part out/other.baked.part
+checks=$((checks + 1))
+"$program" bake --method extended-projections --map 64 --threads 1 city/scene.json --out out/other.baked 2>stderr.txt
+[ $? -eq 2 ] && grep -q "other options" stderr.txt || fail "unfinished cells with another map: $(cat stderr.txt)"
+rm -f out/*
 
 # Command lines that are no good.
 refused "no method" "one that bakes: .*five-d-tree" bake town/scene.json --out out/x
