@@ -37,7 +37,7 @@ struct Limit {
   bool flicker = false;  ///< answers that change from frame to frame are the question here
 };
 
-/// All of them; each takes 2D and 3D.
+/// All of them, two at once behind those alone; each takes 2D and 3D.
 std::span<const Limit> stability_limits();
 
 }  // namespace gridcull

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "gridcull/service/stability_limit.h"
 
@@ -30,7 +31,8 @@ class LimitBuilder {
   LimitWorld finish(double cell);
 
   LimitWorld world{};
-  static constexpr double mover_height = 1.0, eye_height = 1.6;
+  /// Nearly one height: `five-d-tree` has cells only where something moves, however small, and none elsewhere.
+  static constexpr double mover_height = 1.59, eye_height = 1.6;
 
  private:
   ObjectId add(Shape shape, const Pose& pose);
@@ -47,6 +49,30 @@ struct Quarter {
   int frames = 8;
 };
 LimitWorld quarter_world(const Quarter& quarter, int dimension);
+constexpr double building_side = 11.0;  // metres, mean of the quarter's
+
+constexpr double room_side = 20.0;  // metres
+/// 4 x 4 rooms with a door of 2 m in each wall, four things in each; walls of these thicknesses by turns.
+void add_rooms(LimitBuilder& build, const Vec2& origin, std::span<const double> thicknesses);
+/// These, and a viewer in each of four rooms.
+LimitWorld rooms_world(const Vec2& origin, std::span<const double> thicknesses, int dimension);
+
+/// So many things in the cell of 2 m at the origin, a building beside them and one behind.
+void add_crowd(LimitBuilder& build, int count);
+/// Where the crowd's k-th thing stands, and the radius of each.
+Vec2 crowd_place(int k, int count);
+double crowd_radius(int count);
+
+/// Frame by frame somebody so many metres before a corner, a face and a smaller wall of a building and before a thin
+/// wall; below 0: inside.
+LimitWorld approach_world(const Vec2& origin, std::span<const double> gaps, int dimension);
+
+/// Two long walls of houses with a gap of so many metres between them, and a row of things to be seen through it.
+LimitWorld gap_world(const Vec2& origin, double gap, int dimension);
+
+/// Turns a view and makes it so many degrees wide: about the line of sight in 2D, over the height in 3D, where 180 and
+/// more are all round.
+void look_towards(View& view, double heading, double degrees, int dimension);
 
 // One for each limit.
 LimitWorld cell_limit(double value, int dimension);
@@ -59,5 +85,16 @@ LimitWorld speed_limit(double value, int dimension);
 LimitWorld step_limit(double value, int dimension);
 LimitWorld crowd_limit(double value, int dimension);
 LimitWorld flicker_limit(double value, int dimension);
+
+// One for each two limits at once.
+LimitWorld far_thin_limit(double value, int dimension);
+LimitWorld far_corner_limit(double value, int dimension);
+LimitWorld far_narrow_limit(double value, int dimension);
+LimitWorld far_fast_limit(double value, int dimension);
+LimitWorld far_gap_limit(double value, int dimension);
+LimitWorld small_fast_limit(double value, int dimension);
+LimitWorld narrow_face_limit(double value, int dimension);
+LimitWorld thin_on_wall_limit(double value, int dimension);
+LimitWorld crowd_within_limit(double value, int dimension);
 
 }  // namespace gridcull

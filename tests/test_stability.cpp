@@ -85,3 +85,24 @@ TEST_CASE("flicker: an exact method changes as often as the truth, the view volu
   const std::string csv = stability_csv(std::vector<StabilityResult>{exact});
   CHECK(csv.find("silhouette,2,flicker,metres a frame,0.1,30,") != std::string::npos);
 }
+
+TEST_CASE("two limits at once, in 2D: no conservative method misses anybody, and each world has something to be seen") {
+  std::size_t pairs = 0;
+  for (const Limit& limit : stability_limits()) {
+    if (limit.name.find(" x ") == std::string::npos) continue;
+    CAPTURE(limit.name);
+    ++pairs;
+    for (const MethodEntry& method : method_catalog()) {
+      if (!method.info.takes_2d || method.info.guarantee != Guarantee::conservative) continue;
+      CAPTURE(method.info.name);
+      const StabilityResult result = run(std::string(method.info.name).c_str(), limit);
+      for (const LimitResult& r : result.rows[0].results) {
+        CAPTURE(r.value);
+        CHECK(r.refused.empty());
+        CHECK(r.misses == 0);
+        CHECK(r.exact > 0);
+      }
+    }
+  }
+  CHECK(pairs == 9);
+}
