@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gridcull::masking {
 namespace {
@@ -43,9 +44,14 @@ Corner between(const Corner& a, const Corner& b, double da, double db) {
   return {p * a.x + q * b.x, p * a.y + q * b.y, p * a.w + q * b.w, p * a.size + q * b.size};
 }
 
-/// Keeps what lies within a.w * guard >= sign * coordinate.
+/// Keeps what lies within a.w * guard >= sign * coordinate: then `in` and `out` change places. Mostly all does.
 template <class Depth>
-void clip(const Corners& in, Corners& out, const Depth& depth) {
+void clip(Corners*& from, Corners*& to, const Depth& depth) {
+  Corners &in = *from, &out = *to;
+  bool all = true;
+  for (int k = 0; k < in.count; ++k) all = all && depth(in.at[k]) >= 0.0;
+  if (all) return;
+  std::swap(from, to);
   out.count = 0;
   out.overflow = in.overflow;
   for (int k = 0; k < in.count; ++k) {
@@ -84,17 +90,19 @@ void pad(Polygon& polygon) {
 
 Clipped clip_cone(const Window& window, const Vec3* rays, int count, Polygon& out) {
   const double middle_x = 0.5 * window.width, middle_y = 0.5 * window.height;
-  Corners one, two;
+  Corners first, second;
+  Corners *corners = &first, *other = &second;
   for (int k = 0; k < count; ++k) {
     const Vec3& d = rays[k];
     const double w = form(window.form_w, d);
-    one.add({form(window.form_x, d) - middle_x * w, form(window.form_y, d) - middle_y * w, w,
-             std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)})});
+    first.add({form(window.form_x, d) - middle_x * w, form(window.form_y, d) - middle_y * w, w,
+               std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)})});
   }
-  clip(one, two, [&](const Corner& c) { return window.guard_x * c.w - c.x; });
-  clip(two, one, [&](const Corner& c) { return window.guard_x * c.w + c.x; });
-  clip(one, two, [&](const Corner& c) { return window.guard_y * c.w - c.y; });
-  clip(two, one, [&](const Corner& c) { return window.guard_y * c.w + c.y; });
+  clip(corners, other, [&](const Corner& c) { return window.guard_x * c.w - c.x; });
+  clip(corners, other, [&](const Corner& c) { return window.guard_x * c.w + c.x; });
+  clip(corners, other, [&](const Corner& c) { return window.guard_y * c.w - c.y; });
+  clip(corners, other, [&](const Corner& c) { return window.guard_y * c.w + c.y; });
+  const Corners& one = *corners;
   if (one.overflow) return Clipped::unsure;
   if (one.count == 0) return Clipped::empty;
   double stretch = 1.0;

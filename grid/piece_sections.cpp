@@ -141,6 +141,54 @@ class Sections {
 
   bool at(double k, Section& out) const {
     if (!(loop_.height > near_face * k)) return false;
+    return placed_.piece.kind == ConvexPiece::Kind::box ? box_at(k, out) : solid_at(k, out);
+  }
+
+ private:
+  // Of a box: the silhouette of a smaller box about its nearest point, a tenth of the work of cutting its faces by a
+  // ball. Its corners are points of the box (as computed: within the rounding that the claim's slack pays for), which
+  // is all that the claim asks of a section; its faces that see the viewpoint are parts of the box's, so the loop is
+  // the same.
+  bool box_at(double k, Section& out) const {
+    const ConvexPiece& piece = placed_.piece;
+    const Vec3 centre = piece.centre - placed_.frame.apex, low = centre - piece.half, high = centre + piece.half;
+    const Vec3 reach = box_reach(k, low, high), a = glm::max(low, -reach), b = glm::min(high, reach);
+    double square = 0.0;
+    out.outline.count = loop_.count;
+    for (int i = 0; i < loop_.count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const int corner = loop_.vertex[at];
+      Vec3& ray = out.outline.rays[at];
+      ray = placed_.frame.rotation *
+            Vec3((corner & 1) != 0 ? b.x : a.x, (corner & 2) != 0 ? b.y : a.y, (corner & 4) != 0 ? b.z : a.z);
+      square = std::max(square, glm::dot(ray, ray));
+    }
+    out.key = rounded_up(std::sqrt(square));
+    return loop_.count >= 3;
+  }
+
+  // How far to go along each axis, for corners within k: what is left of k^2 beyond the nearest point is shared evenly,
+  // and what an axis cannot use the others get.
+  static Vec3 box_reach(double k, const Vec3& low, const Vec3& high) {
+    const Vec3 nearest = glm::max(glm::max(low, -high), Vec3(0.0)), farthest = glm::max(glm::abs(low), glm::abs(high));
+    const Vec3 wanted = farthest * farthest - nearest * nearest;
+    std::array<int, 3> order{0, 1, 2};
+    const auto sort = [&](std::size_t i, std::size_t j) {
+      if (wanted[order[j]] < wanted[order[i]]) std::swap(order[i], order[j]);
+    };
+    sort(0, 1), sort(1, 2), sort(0, 1);
+    double left = std::max(0.0, k * k - glm::dot(nearest, nearest));
+    Vec3 reach;
+    for (int i = 0; i < 3; ++i) {
+      const int axis = order[static_cast<std::size_t>(i)];
+      const double taken = std::min(wanted[axis], left / (3 - i));
+      left -= taken;
+      reach[axis] = std::sqrt(nearest[axis] * nearest[axis] + taken);
+    }
+    return reach;
+  }
+
+  bool solid_at(double k, Section& out) const {
     Points points;
     for_front_faces([&](const FrontFace& face) {
       add_border(face, k, points);
@@ -159,7 +207,6 @@ class Sections {
     return true;
   }
 
- private:
   template <class F>
   void for_front_faces(const F& f) const {
     FrontFace front;
@@ -195,13 +242,12 @@ void assign(Section& to, const Section& from) {
 int sections(const PlacedPiece& placed, std::span<Section> out) {
   if (out.empty()) return 0;
   Section& whole = out.back();
-  if (!silhouette(placed, whole.outline)) return 0;
+  VertexLoop loop;
+  if (!silhouette(placed, whole.outline, loop)) return 0;
   const double farthest = whole.key = whole.outline.farthest, least = farthest - 2.0 * placed.piece.radius;
   int count = 0;
   if (out.size() > 1 && farthest > paying[0] * least &&
       2.0 * sight_blur(placed.piece, placed.frame) <= placed.piece.slack) {
-    VertexLoop loop;
-    find_loop(placed.piece, placed.frame.apex, loop);
     const Sections at(placed, loop);
     std::array<double, 3> keys;
     const int wanted = std::min(wanted_keys(at.nearest(), farthest, keys), static_cast<int>(out.size()) - 1);

@@ -67,10 +67,14 @@ SightFrame sight_frame(const Pose& pose, const Rotation& rotation, const Vec3& v
 double sight_blur(const ConvexPiece& piece, const SightFrame& frame) { return frame.blur + 0x1p-47 * piece.reach; }
 
 bool silhouette(const PlacedPiece& placed, Outline& out) {
+  VertexLoop loop;
+  return silhouette(placed, out, loop);
+}
+
+bool silhouette(const PlacedPiece& placed, Outline& out, VertexLoop& loop) {
   const ConvexPiece& piece = placed.piece;
   const double blur = sight_blur(piece, placed.frame);
   if (!(blur <= piece.slack)) return false;
-  VertexLoop loop;
   find_loop(piece, placed.frame.apex, loop);
   if (loop.count == 0) return false;
   out.count = loop.count;

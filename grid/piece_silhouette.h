@@ -6,6 +6,7 @@
 
 #include "gridcull/core/pose.h"
 #include "gridcull/grid/convex_piece.h"
+#include "gridcull/grid/silhouette_loop.h"
 
 namespace gridcull {
 
@@ -36,5 +37,7 @@ struct Outline {
 /// The occluder's outline: every ray strictly inside meets the piece's interior (flat: crosses it) no later than at
 /// `farthest`, the key at which it may enter the mask. False when the piece cannot be used from there.
 bool silhouette(const PlacedPiece& placed, Outline& out);
+/// The same, which leaves the loop too.
+bool silhouette(const PlacedPiece& placed, Outline& out, VertexLoop& loop);
 
 }  // namespace gridcull
