@@ -25,7 +25,9 @@ class BallRows {
   struct Item {
     LooseBall ball{};
     Slot slot = none;
-    std::uint8_t marks = 0;  ///< the caller's own
+    // The caller's own.
+    std::uint8_t marks = 0;
+    std::uint8_t wide = 255, tall = 255;  ///< 255ths of the radius
   };
   static constexpr std::uint32_t chunk_items = 3;
   struct alignas(64) Chunk {

@@ -197,6 +197,7 @@ void GridEngine::State::cover(Slot slot) {
   state.stale = false;
   if (world.silhouettes) {
     world.silhouettes->place(slot, state.pose);
+    world.silhouettes->note_stance(slot, state.pose);
     if (world.silhouettes->follow(slot, state.pose)) return;
     set_outside(slot, !world.silhouettes->enter(slot, world.silhouettes->ball_at(slot, state.pose)));
     return;

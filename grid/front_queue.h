@@ -20,7 +20,7 @@ namespace gridcull {
 
 class FrontQueue {
  public:
-  enum class Kind : std::uint8_t { node, volume, object, slice, occluder };
+  enum class Kind : std::uint8_t { node, group, volume, object, slice, occluder };
   struct Item {
     std::uint64_t what;  ///< meaning depends on the kind
     std::uint32_t next;
@@ -38,11 +38,13 @@ class FrontQueue {
     const double extent = farthest - nearest;
     per_metre_ = extent > 0.0 ? static_cast<double>(buckets - 1) / extent : 0.0;
     at_ = 0;
+    tests_left_ = 0;
   }
 
   void push(Kind kind, double key, std::uint64_t what) {
     const std::uint32_t bucket = std::max(at_, bucket_of(key));
     std::vector<std::uint32_t>& heads = kind == Kind::occluder ? occluders_ : tests_;
+    if (kind != Kind::occluder) ++tests_left_;
     const std::uint64_t bit = std::uint64_t{1} << (bucket % 64);
     if ((used_[bucket / 64] & bit) == 0) {
       used_[bucket / 64] |= bit;
@@ -71,9 +73,13 @@ class FrontQueue {
       }
       item = items_[head];
       head = item.next;
+      if (item.kind != Kind::occluder) --tests_left_;
       return true;
     }
   }
+
+  /// Whether anything but occluders is left: those alone change no answer any more.
+  bool any_tests() const { return tests_left_ != 0; }
 
   std::uint64_t bytes() const {
     return items_.capacity() * sizeof(Item) + 2 * buckets * sizeof(std::uint32_t) + words * sizeof(std::uint64_t);
@@ -96,6 +102,7 @@ class FrontQueue {
   std::vector<std::uint64_t> used_;
   double nearest_ = 0.0, per_metre_ = 0.0;
   std::uint32_t at_ = 0;
+  std::uint64_t tests_left_ = 0;
 };
 
 }  // namespace gridcull

@@ -9,6 +9,11 @@ namespace {
 
 constexpr double most_nodes = 1 << 20;
 
+/// Entries a node from which a level is worth having, were they all there; and how many levels may be passed over: few
+/// objects in a wide world may stand close together.
+constexpr std::size_t dense = 2;
+constexpr int highest_floor = 2;
+
 std::int32_t count_along(double extent, double side) {
   return static_cast<std::int32_t>(std::floor(extent / side)) + 1;
 }
@@ -42,11 +47,20 @@ LooseIndex::LooseIndex(int dimension, const Bounds& box, double side) : dimensio
 void LooseIndex::reserve(std::size_t count) {
   grow(entries_, std::max(count, entries_.size()));
   rows_.reserve(entries_.capacity());
+  if (dimension_ == 2) return;
+  for (floor_ = 0; floor_ < std::min(top(), highest_floor) && sparse(floor_); ++floor_) {
+  }
+}
+
+// Any level that is coarse enough for a ball will do (what hangs in finer ones since there were more stays there until
+// it leaves its node), so that this is a matter of cost only.
+bool LooseIndex::sparse(int level) const {
+  return entries_.size() < dense * levels_[static_cast<std::size_t>(level)].node_count(dimension_);
 }
 
 int LooseIndex::level_for(double radius) const {
   const double sides = 2.0 * radius * inverse_side_;
-  return sides <= 1.0 ? 0 : std::ilogb(sides) + 1;  // 2^level > sides
+  return sides <= 1.0 ? floor_ : std::max(floor_, std::ilogb(sides) + 1);  // 2^level > sides
 }
 
 bool LooseIndex::takes(const LooseBall& ball) const {
@@ -84,7 +98,8 @@ void LooseIndex::use_level(int level) {
 }
 
 void LooseIndex::link(Slot slot, const LooseBall& ball, std::uint32_t& row) {
-  entries_[slot].place = rows_.add(row, {ball, slot, entries_[slot].marks});
+  Entry& entry = entries_[slot];
+  entry.place = rows_.add(row, {ball, slot, entry.marks, entry.wide, entry.tall});
 }
 
 void LooseIndex::unlink(Slot slot, std::uint32_t& row) {
@@ -105,7 +120,7 @@ void LooseIndex::place(Slot slot, LooseBall ball) {
   Entry& entry = entries_[slot];
   const int height = static_cast<int>(levels_.size());
   const bool here = entry.level != nowhere;
-  const int level = here && ball.radius == rows_[entry.place].ball.radius ? entry.level : level_for(ball.radius);
+  const int level = level_for(ball.radius);
   Level& home = levels_[static_cast<std::size_t>(level)];
   const NodeId id = node_of(ball.centre, level);
   const auto index = static_cast<std::uint32_t>(home.index(id, dimension_));

@@ -79,6 +79,12 @@ class LooseIndex {
     entry.marks = marks;
     if (entry.place != none) rows_[entry.place].marks = marks;
   }
+  /// Likewise two numbers that say how much of the ball's breadth and height is filled, 255 at first.
+  void set_filling(Slot slot, std::uint8_t wide, std::uint8_t tall) {
+    Entry& entry = entries_[slot];
+    entry.wide = wide, entry.tall = tall;
+    if (entry.place != none) rows_[entry.place].wide = wide, rows_[entry.place].tall = tall;
+  }
 
   int dimension() const { return dimension_; }
   /// Nodes of the coarsest level: at most two along each axis.
@@ -145,6 +151,7 @@ class LooseIndex {
     std::int32_t x = 0, y = 0, z = 0;  // the node's coordinates
     std::uint8_t level = nowhere;
     std::uint8_t marks = 0;
+    std::uint8_t wide = 255, tall = 255;
   };
   struct Level {
     std::int32_t nx, ny, nz;
@@ -166,6 +173,7 @@ class LooseIndex {
 
   double inverse_side(int level) const { return levels_[static_cast<std::size_t>(level)].inverse_side; }
   int level_for(double radius) const;
+  bool sparse(int level) const;
   NodeId node_of(const Vec3& centre, int level) const;
   void use_level(int level);
   bool stays(const Entry& entry, const Vec3& c) const {
@@ -191,6 +199,7 @@ class LooseIndex {
   BallRows rows_;
   std::uint32_t remembered_ = none;  // the row of those that are remembered
   std::uint64_t size_ = 0;
+  int floor_ = 0;  // 3D: nothing new hangs in a finer level, where nodes would hold one entry or none
   Node empty_{};
 };
 

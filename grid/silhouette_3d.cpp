@@ -2,21 +2,24 @@
 //
 // Claim: the answer holds every visible object X. Let p be a visible point of X: in the view volume, and the open
 // segment v-p meets the interior of no occluder but X. Suppose that X was not reported. Then one of these tests failed
-// for the pixel of p's direction: a node that holds X (its box), X's volume (a ball), X as a whole or X's slice that
-// holds the first point q of X on the ray v-p (which is visible too; slices cover X's front). Each asks, at a key no
-// greater than |q|, whether any pixel that it touches is open; the pixel of p's direction is touched (tests are
-// over-estimates), so it was covered: some occluder's cone holds the whole pixel (occluders are under-estimates), and
-// its key lies below the test's (front_queue.h). Its ray in p's direction therefore meets the interior of that
-// occluder Y before q. Y was found visible before it was pushed and is neither what the viewer rides on nor around the
-// viewpoint. Y = X is impossible, X would have been reported. So v-p meets the interior of another occluder: p was
-// not visible. Pixels outside the view volume's sides start covered; p is inside them.
+// for the pixel of p's direction: a node that holds X (its box), a group with X (the box about its members), X's volume
+// (a ball), X as a whole or X's slice that holds the first point q of X on the ray v-p (which is visible too; slices
+// cover X's front). Each asks, at a key no greater than |q|, whether any pixel that it touches is open; the pixel of
+// p's direction is touched (tests are over-estimates), so it was covered: some occluder's cone holds the whole pixel
+// (occluders are under-estimates), and its key lies below the test's (front_queue.h). Its ray in p's direction
+// therefore meets the interior of that occluder Y before q. Y was found visible before it was pushed and is neither
+// what the viewer rides on nor around the viewpoint. Y = X is impossible, X would have been reported. So v-p meets the
+// interior of another occluder: p was not visible. Pixels outside the view volume's sides start covered; p is inside
+// them.
 // Shortcuts. What lies beyond a side of the one window has no pixel there: it is neither visible nor hides anything,
 // and is not pushed. Hidden by the rectangle about its ball, which holds every pixel that the object touches, an object
-// is hidden. Its one pixel at its nearest point (or middle) being open, it is reported without any outline: an answer
-// that lets an object through needs no proof. It is as tight as the whole test, for the point belongs to the object's
-// hull, and for balls and boxes also to the nearest slice; rounding may take it one pixel beside the outline. Objects
-// nearer than the near plane are entered as occluders too, though not reported; nothing beyond the range can hide what
-// is within it.
+// is hidden; so it is by the rectangle about its box where it stands upright, and its key is the distance of the
+// cylinder in that box, which holds it too (SilhouetteWorld::filling()). When no test is left, occluders change no
+// answer. Its one pixel at its nearest point (or middle) being open, it is reported without any outline: an answer that
+// lets an object through needs no proof. It is as tight as the whole test, for the point belongs to the object's hull,
+// and for balls and boxes also to the nearest slice; rounding may take it one pixel beside the outline. Objects nearer
+// than the near plane are entered as occluders too, though not reported; nothing beyond the range can hide what is
+// within it.
 //
 // Cost: nodes, objects and pixels in front of what is visible; what is behind covered pixels is met as nodes only.
 // The order inside a bucket and the shape of the index change no answer: a test depends on the occluders of lower
@@ -36,13 +39,11 @@ namespace {
 double magnitude(const Vec3& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
 /// How much farther a solid's far end must be than its near end for slices to pay.
-constexpr double worth_slicing = 1.5;
+constexpr double worth_slicing = 2.5;
 
 /// A mask is made of blocks of eight rows.
 int whole_blocks(int resolution) { return (resolution + 7) / 8 * 8; }
 
-/// Entries that are worth a test of their node.
-constexpr std::uint32_t few = 2;
 
 /// Distances are rounded three or four times, each by at most 2^-52 of the coordinates that went in.
 constexpr double rounding = 0x1p-46;
@@ -109,6 +110,8 @@ void Silhouette3D::begin(const View& view) {
   mask_.begin(*volume_, pixels());
   mask_.clear_counts();
   nodes_.clear();
+  groups_.clear();
+  entries_.clear();
   occluders_.clear();
   rays_.clear();
   sliced_.clear();
@@ -126,88 +129,29 @@ void Silhouette3D::begin(const View& view) {
 }
 
 // A window of 512 pixels costs a few per cent more than one of 256 and a fifth of the over-estimation. A cube has six
-// faces to clear: what a short range leaves does not need as many.
+// faces, and what a short range leaves does not need as many: a pixel at the range about as wide as a cell, which is a
+// quarter of a typical occluder.
 int Silhouette3D::pixels() const {
   if (resolution_ > 0) return whole_blocks(resolution_);
   if (!volume_->all_round()) return 512;
-  return std::isfinite(volume_->range()) ? 256 : 512;
+  const double wanted = 2.0 * volume_->range() / (1.25 * world_->lattice.cell());
+  return wanted <= 128.0 ? 128 : wanted <= 256.0 ? 256 : 512;
 }
 
 std::uint64_t Silhouette3D::mask_bytes(int resolution) { return CoverageMask::bytes_for(whole_blocks(resolution)); }
 
 void Silhouette3D::walk() {
   FrontQueue::Item item;
-  while (!mask_.full() && queue_.pop(item)) {
+  while (!mask_.full() && queue_.any_tests() && queue_.pop(item)) {
     switch (item.kind) {
       case FrontQueue::Kind::node: open_node(nodes_[item.what]); break;
+      case FrontQueue::Kind::group: look_at_group(groups_[item.what]); break;
       case FrontQueue::Kind::volume: look_at_volume(static_cast<BallRows::Place>(item.what)); break;
       case FrontQueue::Kind::object: look(static_cast<BallRows::Place>(item.what)); break;
       case FrontQueue::Kind::slice: look_at_slices(sliced_[item.what]); break;
       case FrontQueue::Kind::occluder: enter(occluders_[item.what]); break;
     }
   }
-}
-
-// The index grows a node's box by a margin that covers its own rounding; blur_ covers that of these sums.
-Silhouette3D::Box Silhouette3D::box_of(const LooseIndex::NodeId& id) const {
-  const double side = shapes_->index.side(id.level);
-  const double grown = 0.5 * side + shapes_->index.margin() + blur_;
-  const Vec3 low = corner_ + side * Vec3(id.x, id.y, id.z);
-  return {low - Vec3(grown), low + Vec3(side + grown)};
-}
-
-void Silhouette3D::push_node(const LooseIndex::NodeId& id) {
-  const Box box = box_of(id);
-  const double key = distance_to_box(box.low, box.high) - blur_;
-  if (key > limit_) return;
-  nodes_.push_back(id);
-  queue_.push(FrontQueue::Kind::node, key, nodes_.size() - 1);
-}
-
-void Silhouette3D::open_node(LooseIndex::NodeId id) {
-  const LooseIndex& index = shapes_->index;
-  const LooseIndex::Node& node = index.node(id);
-  // A test costs as much as those of the few entries that it might spare.
-  if (node.below > few) {
-    const Box box = box_of(id);
-    if (!mask_.open_box(box.low, box.high)) {
-      ++answer_->work.cells_hidden;
-      if (drawing_) walked_.hidden.push_back(id);
-      return;
-    }
-  }
-  ++answer_->work.cells_visited;
-  if (drawing_) walked_.opened.push_back(id);
-  index.each(node.first, [this](const BallRows::Item& item, BallRows::Place place) { push_entry(item, place); });
-  if (id.level > 0) push_children(id);
-}
-
-void Silhouette3D::push_children(const LooseIndex::NodeId& id) {
-  const LooseIndex::Node* children = shapes_->index.children(id);
-  if (children == nullptr) return;
-  for (int child = 0; child < 8; ++child) {
-    if (children[child].below == 0) continue;
-    shapes_->index.rows().prefetch(children[child].first);
-    push_node({id.level - 1, 2 * id.x + (child & 1), 2 * id.y + (child >> 1 & 1), 2 * id.z + (child >> 2)});
-  }
-}
-
-double Silhouette3D::grown(const LooseBall& ball) const {
-  return ball.radius + rounding * (apex_size_ + magnitude(ball.centre) + ball.radius);
-}
-
-void Silhouette3D::push_entry(const BallRows::Item& item, BallRows::Place place) {
-  if (item.slot == rides_) return;
-  const bool hidden = (item.marks & SilhouetteWorld::is_hidden) != 0;
-  if ((item.marks & SilhouetteWorld::is_ball) == 0) shapes_->prefetch_solid(item.slot);
-  push(hidden ? FrontQueue::Kind::volume : FrontQueue::Kind::object, place, item.ball);
-}
-
-// What lies beside the window is neither seen nor hides what is.
-void Silhouette3D::push(FrontQueue::Kind kind, BallRows::Place place, const LooseBall& ball) {
-  const Vec3 centre = ball.centre - volume_->apex();
-  const double radius = grown(ball), key = glm::length(centre) - radius;
-  if (key <= limit_ && !mask_.beyond_window(centre, radius)) queue_.push(kind, key, place);
 }
 
 // A volume that is open somewhere is given up: its object is read and looked at like any other, when its own depth
@@ -219,19 +163,24 @@ void Silhouette3D::look_at_volume(BallRows::Place place) {
   if (!mask_.open_ball(ball.centre - volume_->apex(), grown(ball))) return;
   ++answer_->work.tbv_revealed;
   result_->revealed.push_back(slot);
-  push(FrontQueue::Kind::object, place, shapes_->ball_at(slot, world_->read(slot)));
+  const Pose pose = world_->read(slot);
+  push_object(place, shapes_->ball_at(slot, pose), SilhouetteWorld::stands_upright(shapes_->index.marks(slot), pose));
 }
 
 void Silhouette3D::look(BallRows::Place place) {
   const BallRows::Item& item = shapes_->index.item(place);
   const Slot slot = item.slot;
+  world_->objects.prefetch(slot);
+  if ((item.marks & SilhouetteWorld::is_ball) == 0) shapes_->prefetch_solid(slot);
   const bool has_volume = (item.marks & SilhouetteWorld::is_hidden) != 0;
   const LooseBall ball = has_volume ? shapes_->ball_at(slot, pose_of(slot)) : item.ball;
+  const bool upright = has_volume ? SilhouetteWorld::stands_upright(item.marks, pose_of(slot))
+                                  : SilhouetteWorld::upright_now(item.marks);
   ++answer_->work.object_tests;
-  // Most objects that are met are hidden, and most of those are found to be by the rectangle about their ball.
+  // Most objects that are met are hidden, and most of those are found to be by the rectangle about their ball or box.
   const Vec3 centre = ball.centre - volume_->apex();
   const double radius = grown(ball);
-  if (!mask_.open_about_ball(centre, radius)) return;
+  if (!open_about(item, centre, ball.radius, radius, upright)) return;
   if (glm::dot(centre, centre) <= radius * radius && holds_viewpoint(slot)) {
     result_->seen.push_back(slot);
     return;
@@ -243,6 +192,14 @@ void Silhouette3D::look(BallRows::Place place) {
   } else {
     see(slot);
   }
+}
+
+bool Silhouette3D::open_about(const BallRows::Item& item, const Vec3& centre, double radius, double grown,
+                              bool upright) const {
+  if (!upright) return mask_.open_about_ball(centre, grown);
+  const SilhouetteWorld::Filling filling = SilhouetteWorld::filling(item, true, radius, grown);
+  const Vec3 half(filling.wide, filling.wide, filling.tall);
+  return mask_.open_box(centre - half, centre + half);
 }
 
 bool Silhouette3D::holds_viewpoint(Slot slot) const {
@@ -280,13 +237,13 @@ LooseBall Silhouette3D::bounding_ball(Slot slot, const SilhouetteWorld::Solid& s
 // The box around a solid, with the world's axes, is a first, cheap test.
 bool Silhouette3D::open_solid(Slot slot, const SilhouetteWorld::Solid& solid, Sliced& object) {
   const SightFrame frame = sight(slot);
+  if (mask_.open_towards(front_of(solid.outer, frame))) return true;
   const Rotation& r = frame.rotation;
   const Vec3 centre = frame.origin + r * solid.box_centre;
   const double blur = rounding * (apex_size_ + magnitude(pose_of(slot).position) + magnitude(solid.box_half));
   const Vec3 half = glm::abs(r.x) * solid.box_half.x + glm::abs(r.y) * solid.box_half.y +
                     glm::abs(r.z) * solid.box_half.z + Vec3(blur);
   if (!mask_.open_box(centre - half, centre + half)) return false;
-  if (mask_.open_towards(front_of(solid.outer, frame))) return true;
   if (!outer_outline({solid.outer, frame}, outline_)) return true;
   if (!mask_.open_convex(outline_.rays.data(), outline_.count)) return false;
   if (outline_.farthest > worth_slicing * outline_.nearest) {
@@ -341,6 +298,10 @@ void Silhouette3D::see(Slot slot) {
 bool Silhouette3D::in_view(Slot slot) const {
   if (volume_->all_round() && !std::isfinite(volume_->range())) return true;
   const ObjectState& state = world_->objects[slot];
+  // All of it well within the range, by far more than roundings: so it touches it.
+  const Vec3 centre = state.pose.position - volume_->apex();
+  const double within = volume_->range() * (1.0 - 1e-9) - state.reach;
+  if (volume_->all_round() && within > 0.0 && glm::dot(centre, centre) < within * within) return true;
   if (!volume_->may_touch_ball(state.pose.position, state.reach)) return false;
   return state.round || state.shape->may_touch(*volume_, state.pose);
 }
@@ -393,7 +354,8 @@ void Silhouette3D::enter(const Occluder& occluder) {
 
 std::uint64_t Silhouette3D::bytes() const {
   return mask_.bytes() + queue_.bytes() + occluders_.capacity() * sizeof(Occluder) + rays_.capacity() * sizeof(Vec3) +
-         sliced_.capacity() * sizeof(Sliced) + nodes_.capacity() * sizeof(LooseIndex::NodeId);
+         sliced_.capacity() * sizeof(Sliced) + nodes_.capacity() * sizeof(LooseIndex::NodeId) +
+         groups_.capacity() * sizeof(Group) + entries_.capacity() * sizeof(Entry);
 }
 
 }  // namespace gridcull

@@ -50,15 +50,35 @@ class Silhouette3D final : public ViewAnswerer {
   struct Box {
     Vec3 low, high;  ///< relative to the viewpoint
   };
+  /// An object or volume on its way into the queue.
+  struct Entry {
+    double key;
+    BallRows::Place place;
+    FrontQueue::Kind kind;
+  };
+  /// What hangs in a node and below, where that is little: tested together, as one box.
+  struct Group {
+    Box box;
+    LooseIndex::NodeId node;
+    std::uint32_t first, count;  ///< in entries_
+  };
   Box box_of(const LooseIndex::NodeId& id) const;
   void push_node(const LooseIndex::NodeId& id);
   void push_children(const LooseIndex::NodeId& id);
   void open_node(LooseIndex::NodeId id);
+  void push_group(const LooseIndex::NodeId& id);
+  void gather(const LooseIndex::NodeId& id, const LooseIndex::Node& node, Box& box);
+  void look_at_group(const Group& group);
+  void push_entries(const Group& group);
   void push_entry(const BallRows::Item& item, BallRows::Place place);
-  void push(FrontQueue::Kind kind, BallRows::Place place, const LooseBall& ball);
+  void push_object(BallRows::Place place, const LooseBall& ball, bool upright);
+  /// False where the ball can neither be seen nor hide anything; `box` grows by what it holds.
+  bool weigh(const BallRows::Item& item, const LooseBall& ball, bool upright, double& key, Box& box) const;
   void look_at_volume(BallRows::Place place);
   /// First test: the object as a whole.
   void look(BallRows::Place place);
+  /// The rectangle about the box of an upright object, or about the ball. `centre`: relative to the viewpoint.
+  bool open_about(const BallRows::Item& item, const Vec3& centre, double radius, double grown, bool upright) const;
   bool holds_viewpoint(Slot slot) const;
   bool open_whole(Slot slot, Sliced& object);
   bool open_as_ball(const LooseBall& ball, Sliced& object);
@@ -94,6 +114,8 @@ class Silhouette3D final : public ViewAnswerer {
   Vec3 corner_{0.0};                       // of the index, relative to the viewpoint
   double blur_ = 0.0;                      // metres: rounding of distances to anything in the index
   std::vector<LooseIndex::NodeId> nodes_;  // in the queue, as occluders are
+  std::vector<Group> groups_;
+  std::vector<Entry> entries_;
   std::vector<Occluder> occluders_;
   std::vector<Vec3> rays_;
   std::vector<Sliced> sliced_;

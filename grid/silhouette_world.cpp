@@ -28,6 +28,11 @@ std::vector<Vec3> vertices_of(const ConvexPiece& piece) {
   return points;
 }
 
+/// 255ths of `whole`, rounded up by more than a quaternion's length may be off (SilhouetteWorld::ball_at()).
+std::uint8_t part_of(double length, double whole) {
+  return static_cast<std::uint8_t>(std::fmin(255.0, std::floor(255.0 * (length / whole) * (1.0 + 1e-6)) + 1.0));
+}
+
 /// The box around these points, or as good as around them.
 void set_box(SilhouetteWorld::Solid& solid, const std::vector<Vec3>& points, double reach) {
   Bounds box;
@@ -92,6 +97,23 @@ void SilhouetteWorld::add(Slot slot, const Shape& shape, bool occluder) {
     body.ball.radius *= 1.0 + 1e-8;
   index.set_marks(slot, static_cast<std::uint8_t>((body.centred ? is_centred : 0) | (body.solid ? 0 : is_ball) |
                                                   (occluder ? is_occluder : 0)));
+  set_filling(slot, shape);
+}
+
+// Turned about +z an object keeps the heights of its points over its ball's centre, and their distances beside it.
+void SilhouetteWorld::set_filling(Slot slot, const Shape& shape) {
+  const LooseBall& ball = bodies_[slot].ball;
+  index.set_filling(slot, 255, 255);
+  if (dimension_of(shape) == 2) return;
+  double wide = 0.0, tall = 0.0;
+  for (const Vec3& p : world_vertices(shape, Pose{})) {
+    const Vec3 off = p - ball.centre;
+    wide = std::fmax(wide, std::sqrt(off.x * off.x + off.y * off.y));
+    tall = std::fmax(tall, std::fabs(off.z));
+  }
+  if (!(wide > 0.0 || tall > 0.0)) return;  // round
+  index.set_filling(slot, part_of(wide, ball.radius), part_of(tall, ball.radius));
+  index.set_marks(slot, index.marks(slot) | has_filling);
 }
 
 void SilhouetteWorld::remove(Slot slot) {

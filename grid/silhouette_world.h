@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -46,8 +47,17 @@ class SilhouetteWorld {
   bool follow(Slot slot, const Pose& pose) { return index.follow(slot, ball_at(slot, pose)); }
   /// The same where the index is known to have the object's own ball, and not a volume.
   bool follow_own(Slot slot, const Pose& pose) {
-    if ((index.marks(slot) & is_centred) == 0) return follow(slot, pose);
+    const std::uint8_t marks = index.marks(slot);
+    if (((marks & is_upright) != 0) != stands_upright(marks, pose)) return false;
+    if ((marks & is_centred) == 0) return follow(slot, pose);
     return index.follow(slot, pose.position);
+  }
+  /// Notes how the object stands before enter() or follow() gets its own ball.
+  void note_stance(Slot slot, const Pose& pose) {
+    const std::uint8_t marks = index.marks(slot);
+    const bool upright = stands_upright(marks, pose);
+    if (upright == ((marks & is_upright) != 0)) return;
+    index.set_marks(slot, static_cast<std::uint8_t>(marks ^ is_upright));
   }
 
   /// What the walk asks of every object that it meets, as LooseIndex::marks().
@@ -55,8 +65,26 @@ class SilhouetteWorld {
     is_centred = 1,  ///< its ball's centre is its position
     is_ball = 2,     ///< 3D: tested as the ball of ball_at(), without a Solid
     is_hidden = 4,   ///< the index has its temporal bounding volume instead of its ball
-    is_occluder = 8
+    is_occluder = 8,
+    has_filling = 16,  ///< 3D: upright it fills part of its ball only
+    is_upright = 32    ///< and it stands upright now: turned about +z only
   };
+  /// Within what a ball's item says of its object, relative to the ball's centre: metres along x and y, and along z.
+  struct Filling {
+    double wide, tall;
+  };
+  /// Of an object with these marks at the pose, whoever has a ball in the index. `grown`: the ball's radius with all
+  /// that rounding may do. A turn about +z is one whose x and y are 0: then z stays z, to the last bit.
+  static bool stands_upright(std::uint8_t marks, const Pose& pose) {
+    return (marks & has_filling) != 0 && pose.orientation.x == 0.0 && pose.orientation.y == 0.0;
+  }
+  /// Whether the object itself, and not its volume, has a ball in the index and stands upright.
+  static bool upright_now(std::uint8_t marks) { return (marks & (is_upright | is_hidden)) == is_upright; }
+  static Filling filling(const BallRows::Item& item, bool upright, double radius, double grown) {
+    if (!upright) return {grown, grown};
+    const double part = radius * (1.0 / 255.0), blur = grown - radius;
+    return {part * item.wide + blur, part * item.tall + blur};
+  }
   void set_hidden(Slot slot, bool on) {
     const std::uint8_t marks = index.marks(slot);
     index.set_marks(slot, static_cast<std::uint8_t>(on ? marks | is_hidden : marks & ~is_hidden));
@@ -71,7 +99,14 @@ class SilhouetteWorld {
     LooseBall ball{};                     ///< radius above 0: tested as this ball, local axes, instead of all that
   };
   const Solid* solid(Slot slot) const { return bodies_[slot].solid.get(); }
-  void prefetch_solid(Slot slot) const { __builtin_prefetch(&bodies_[slot]); }
+  /// Hints that solid(slot) is needed soon: first where it stands, then what it says.
+  void prefetch_body(Slot slot) const { __builtin_prefetch(&bodies_[slot]); }
+  void prefetch_solid(Slot slot) const {
+    const auto* solid = reinterpret_cast<const char*>(bodies_[slot].solid.get());
+    __builtin_prefetch(solid);
+    __builtin_prefetch(solid + offsetof(Solid, outer));
+    __builtin_prefetch(solid + offsetof(Solid, outer) + 64);
+  }
 
   /// What shapes take; the index says its own.
   std::uint64_t shape_bytes() const;
@@ -87,6 +122,7 @@ class SilhouetteWorld {
  private:
   std::unique_ptr<Solid> make_solid(const Shape& shape) const;
   std::shared_ptr<const Solid> solid_of(const Shape& shape);
+  void set_filling(Slot slot, const Shape& shape);
 
   /// Smallest ball we know of about the shape, local axes. About the origin it holds at any orientation.
   struct Body {

@@ -37,6 +37,7 @@ class Walk {
       if (keys_.size() < 3000) spawn(key);
     }
     for (const bool taken : taken_) CHECK(taken);
+    CHECK(!queue_.any_tests());
   }
 
  private:
@@ -46,8 +47,8 @@ class Walk {
     return key + steps[dice_.below(8)] * (farthest_ - nearest_);
   }
   void spawn(double key) {
-    static constexpr Kind tests[] = {Kind::node, Kind::volume, Kind::object, Kind::slice};
-    for (std::uint32_t i = dice_.below(4); i > 0; --i) push(tests[dice_.below(4)], key_from(key));
+    static constexpr Kind tests[] = {Kind::node, Kind::group, Kind::volume, Kind::object, Kind::slice};
+    for (std::uint32_t i = dice_.below(4); i > 0; --i) push(tests[dice_.below(5)], key_from(key));
     for (std::uint32_t i = dice_.below(3); i > 0; --i) push(Kind::occluder, key_from(key));
   }
   void push(Kind kind, double key) {

@@ -51,6 +51,8 @@ void check(const LooseIndex& index, const std::map<Slot, LooseBall>& truth) {
     CHECK(walk.met.contains(slot));
     CHECK(index.ball(slot).centre == ball.centre);
     CHECK(index.item(index.place_of(slot)).slot == slot);
+    CHECK(index.item(index.place_of(slot)).wide == slot + 60);
+    CHECK(index.item(index.place_of(slot)).tall == slot + 120);
   }
 }
 
@@ -62,7 +64,10 @@ void run(int dimension, const Bounds& box, double side, unsigned seed) {
   LooseIndex index(dimension, box, side);
   const std::uint32_t slots = 60;
   index.reserve(slots);
-  for (Slot slot = 0; slot < slots; ++slot) index.set_marks(slot, static_cast<std::uint8_t>(slot));
+  for (Slot slot = 0; slot < slots; ++slot) {
+    index.set_marks(slot, static_cast<std::uint8_t>(slot));
+    index.set_filling(slot, static_cast<std::uint8_t>(slot + 60), static_cast<std::uint8_t>(slot + 120));
+  }
   std::map<Slot, LooseBall> truth, remembered;
   for (int step = 0; step < 400; ++step) {
     const auto slot = static_cast<Slot>(random() % slots);
