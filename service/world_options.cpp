@@ -116,7 +116,7 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
       .type_name("KIND");
   add_text(command, "--resolution", options.resolution, "R or WxH",
            "silhouette in 3D: R pixels along a cube face's edge, 8 .. 8192, finer is tighter and slower (default "
-           "512, 256 all round with a range); depth-rays: WxH rays, each 1 .. 8192 (default 128x72)")
+           "512, 128 to 512 all round with a range, by that); depth-rays: WxH rays, each 1 .. 8192 (default 128x72)")
       .type_name("R|WxH");
   add_text(command, "--baked", options.baked, "a file name",
            "what gridcull bake wrote for this method and scene; without it five-d-tree bakes a little at the first "
