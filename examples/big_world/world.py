@@ -13,21 +13,21 @@ import random
 
 SIDE, HEIGHT = 10000.0, 200.0
 CROP = (4500.0, 5500.0)
-PITCH = 40.0
+PITCH = 20.0
 
 
 def buildings(count, rng):
-    """Plots on a 40 m pitch, dense in the middle and thinning out, two rows of houses and a street each."""
+    """Houses of 10 x 8 m, jittered on a pitch of 20 m: dense in the middle, thinning out."""
     plots = [(x, y) for x in range(int(SIDE / PITCH)) for y in range(int(SIDE / PITCH))]
     middle = SIDE / PITCH / 2
-    plots.sort(key=lambda p: math.hypot(p[0] - middle, p[1] - middle) * rng.uniform(0.8, 1.25))
+    plots.sort(key=lambda p: math.hypot(p[0] - middle, p[1] - middle) * rng.uniform(0.7, 1.5))
     for number, (x, y) in enumerate(plots[:count]):
-        length, width = rng.uniform(12, 28), rng.uniform(8, 24)
         far = math.hypot(x - middle, y - middle) / middle
-        height = rng.uniform(4, 12) + max(0.0, 1 - 2 * far) * rng.uniform(0, 60) ** 1.2
-        yield {"id": number, "static": True, "heading": round(rng.uniform(-0.2, 0.2), 6),
-               "shape": {"type": "prism", "vertices": outline(length, width), "height": round(min(height, 190.0), 3)},
-               "position": [round((x + 0.5) * PITCH, 3), round((y + 0.5) * PITCH, 3), 0]}
+        height = rng.uniform(4, 12) + max(0.0, 1 - 2 * far) * rng.uniform(0, 30)
+        yield {"id": number, "static": True, "heading": round(rng.uniform(-0.3, 0.3), 6),
+               "shape": {"type": "prism", "vertices": outline(10, 8), "height": round(height, 3)},
+               "position": [round((x + 0.5) * PITCH + rng.uniform(-2, 2), 3),
+                            round((y + 0.5) * PITCH + rng.uniform(-2, 2), 3), 0]}
 
 
 def outline(length, width):
@@ -39,7 +39,7 @@ def outline(length, width):
 def cars(first, count, rng):
     """On the streets between plots, near the middle."""
     for number in range(count):
-        x = 4520 + PITCH * rng.randrange(24)
+        x = 4520 + PITCH * rng.randrange(48)
         yield {"id": first + number, "shape": {"type": "box", "size": [4.5, 1.8, 1.5]}, "max_speed": 15,
                "position": [round(x, 3), round(rng.uniform(4520, 5480), 3), 0.75], "heading": 1.5707963267948966}
 
@@ -57,7 +57,7 @@ def main():
     viewers = [{"id": i, "follows": moving[i]["id"], "offset": [0, 0, 0.75], "range": 200} for i in range(arguments.viewers)]
 
     def write(name, low, high):
-        inside = [o for o in houses if all(low - 40 <= c <= high + 40 for c in o["position"][:2])]
+        inside = [o for o in houses if all(low - 10 <= c <= high + 10 for c in o["position"][:2])]
         scene = {"format": "gridcull.scene/1", "dimension": 3,
                  "bounds": {"min": [low, low, -1 / 1024], "max": [high, high, HEIGHT - 1 / 1024]},
                  "grid": {"cell": arguments.cell}, "objects": inside + moving, "viewers": viewers}

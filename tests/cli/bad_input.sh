@@ -232,7 +232,7 @@ refused "bake with one that does not" "does not bake" bake s.json --method voxel
 refused "bake over the scene" "expected an output of its own" bake s.json --method five-d-tree --out s.json
 refused "bake with 0 threads" "--threads: expected 1 .. 256, found 0$" bake s.json --method five-d-tree --out out/x --threads 0
 refused "answers over the baked file" "expected an output of its own" run s.json --method five-d-tree --baked kept.txt --out kept.txt
-refused "bake static" "bake static" bake static s.json --out out/x.vdb
+refused "bake static" "expected static objects" bake static s.json --out out/x.vdb
 
 # Values: what was expected and found, by the option as typed.
 for value in x 1.5 -3 "" 1e2; do

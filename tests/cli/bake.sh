@@ -122,7 +122,6 @@ refused "a share of nothing" "s-thresh" bake --method five-d-tree --s-thresh 0 t
 refused "half a cell" "cells" bake --method five-d-tree --cells 2.5 town/scene.json --out out/x
 refused "three intervals" "intervals" bake --method five-d-tree --intervals 3 town/scene.json --out out/x
 refused "no height" "high" bake --method five-d-tree --low 2 --high 1 town/scene.json --out out/x
-refused "static volumes" "bake static" bake static town/scene.json --out out/x.vdb
 refused "two scenes" "one scene" bake "${quick[@]}" town/scene.json other/scene.json --out out/x
 refused "a box of less than nothing" "view-box" run town/scene.json --method five-d-tree --view-box -1
 
