@@ -37,11 +37,11 @@ def outline(length, width):
 
 
 def cars(first, count, rng):
-    """On the streets between plots, near the middle."""
+    """On the streets between plots; those in front, who look around, well within the square kilometre."""
     for number in range(count):
-        x = 4520 + PITCH * rng.randrange(48)
+        x = 4720 + PITCH * rng.randrange(28)
         yield {"id": first + number, "shape": {"type": "box", "size": [4.5, 1.8, 1.5]}, "max_speed": 15,
-               "position": [round(x, 3), round(rng.uniform(4520, 5480), 3), 0.75], "heading": 1.5707963267948966}
+               "position": [round(x, 3), round(rng.uniform(4720, 5260), 3), 0.75], "heading": 1.5707963267948966}
 
 
 def main():
