@@ -1,4 +1,5 @@
-// The one file that sees OpenVDB's headers (they take a minute to compile): openvdb_store.h, static_volume.h.
+// Static worlds in OpenVDB: openvdb_store.h, static_volume.h. Only openvdb_field.cpp sees its headers besides (they
+// take a minute to compile).
 #include <bit>
 #include <charconv>
 #include <cstdint>

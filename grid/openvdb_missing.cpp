@@ -1,5 +1,6 @@
 // What stands for OpenVDB where it was not found or not wanted.
 #include "gridcull/core/error.h"
+#include "gridcull/grid/openvdb_field.h"
 #include "gridcull/grid/openvdb_store.h"
 #include "gridcull/grid/static_volume.h"
 
@@ -21,5 +22,7 @@ void write_static_volume(const std::string&, const StaticCells&) { refuse(); }
 StaticCells read_static_volume_head(const std::string&) { refuse(); }
 
 StaticCells read_static_volume(const std::string&, std::uint64_t) { refuse(); }
+
+ScalarField read_scalar_field(const std::string&, const std::string&, std::uint64_t) { refuse(); }
 
 }  // namespace gridcull
