@@ -152,6 +152,7 @@ class Looker {
       for (std::size_t k = 0; k < s.vertices.size(); ++k) {
         const Vec3 &p = s.vertices[k], &q = s.vertices[(k + 1) % s.vertices.size()];
         use(p + 0.02 * (middle - p));
+        if (s.kind == SolidKind::volume) use(p);
         use(0.5 * (p + q) + 0.02 * (middle - 0.5 * (p + q)));
       }
       return;

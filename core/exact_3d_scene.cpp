@@ -1,6 +1,6 @@
 // Embree 3: spheres as its own points, boxes, hulls and faces as triangles, prisms (whose outlines may be concave
-// or cross themselves) as user geometry with the analytic stretches. Coordinates are relative to the world's middle,
-// so that floats are as good as they can be.
+// or cross themselves) and volumes as user geometry with the analytic stretches. Coordinates are relative to the
+// world's middle, so that floats are as good as they can be.
 #include "gridcull/core/exact_3d_scene.h"
 
 #if GRIDCULL_HAS_EMBREE
@@ -86,7 +86,7 @@ struct RayScene::Detail {
   RTCScene scene = nullptr;
   Vec3 middle{0.0};
   double blur = 0.0;
-  Part spheres, meshes, prisms;
+  Part spheres, meshes, prisms;    ///< prisms: and volumes
   std::vector<const Part*> parts;  ///< by geometry id
 
   ~Detail() {
@@ -180,7 +180,7 @@ RayScene::RayScene(const std::vector<Solid>& solids) : detail_(std::make_unique<
   for (Part* part : {&d.spheres, &d.meshes, &d.prisms}) part->solids = &solids, part->middle = d.middle;
   for (std::uint32_t i = 0; i < solids.size(); ++i) {
     if (solids[i].kind == SolidKind::sphere) d.spheres.solid_of.push_back(i);
-    if (solids[i].kind == SolidKind::prism) d.prisms.solid_of.push_back(i);
+    if (solids[i].kind == SolidKind::prism || solids[i].kind == SolidKind::volume) d.prisms.solid_of.push_back(i);
   }
   d.add_spheres(solids);
   d.add_meshes(solids);

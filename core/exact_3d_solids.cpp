@@ -7,6 +7,7 @@
 #include <string>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/exact_3d_volume.h"
 #include "gridcull/core/hull.h"
 
 namespace gridcull::exact {
@@ -58,6 +59,21 @@ void make_shape(const Shape& shape, Solid& solid) {
     solid.triangles = faces->triangles;
     for (const Vec3& p : faces->vertices) solid.box.add(p);
   }
+}
+
+void make_volume(const Volume& volume, const Pose& pose, Solid& solid) {
+  solid.kind = SolidKind::volume;
+  auto field = std::make_shared<const RayVolume>(volume, pose);
+  solid.vertices = field->inside_points();
+  solid.world_box = field->world_box();
+  solid.reach = 0.0;  // of the field's own, not of what the methods take it for
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 &low = solid.world_box.min, &high = solid.world_box.max;
+    const Vec3 corner((i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y, (i & 4) ? high.z : low.z);
+    solid.box.add(solid.rotation.inverse(corner - solid.position));
+    solid.reach = std::max(solid.reach, glm::length(corner - solid.position) * (1.0 + 1e-9));
+  }
+  solid.field = std::move(field);
 }
 
 /// Cuts the stretch with dot(normal, p) >= offset. False when nothing is left.
@@ -167,6 +183,10 @@ std::vector<Solid> make_solids(std::span<const Object> world) {
     solid.position = object.pose.position;
     solid.rotation = rotation_of(object.pose.orientation);
     solid.reach = reach_of(object.shape);
+    if (const auto* volume = std::get_if<Volume>(&object.shape)) {
+      make_volume(*volume, object.pose, solid);
+      continue;
+    }
     solid.vertices = world_vertices(object.shape, object.pose);
     make_shape(object.shape, solid);
     for (const Vec3& p : solid.vertices) solid.world_box.add(p);
@@ -178,6 +198,7 @@ std::vector<Solid> make_solids(std::span<const Object> world) {
 void add_stretches(const Solid& solid, const Vec3& eye, const Vec3& ray, std::vector<Stretch>& out) {
   if (solid.kind == SolidKind::sphere) return add_sphere(solid, eye, ray, out);
   if (solid.kind == SolidKind::faces) return add_faces(solid, eye, ray, out);
+  if (solid.kind == SolidKind::volume) return solid.field->add_stretches(eye, ray, out);
   const Vec3 local_eye = solid.rotation.inverse(eye - solid.position);
   const Vec3 local_ray = solid.rotation.inverse(ray);
   if (solid.kind == SolidKind::prism) return add_prism(solid, local_eye, local_ray, out);
@@ -207,6 +228,7 @@ bool within_one(const std::vector<Stretch>& stretches, double margin) {
 bool surely_holds(const Solid& solid, const Vec3& point) {
   if (solid.kind == SolidKind::faces && !solid.closed) return false;
   if (glm::length(point - solid.position) > solid.reach * (1.0 + blur)) return false;
+  if (solid.kind == SolidKind::volume && !solid.field->surely_inside(point)) return false;
   const double margin = blur * (std::fabs(point.x) + std::fabs(point.y) + std::fabs(point.z) + solid.reach);
   // Inside and not near the surface in any of seven directions that no outline is aligned with.
   constexpr std::array<std::array<double, 3>, 7> rays{{{0.6, 0.7, 0.39},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,9 @@ struct Stretch {
   double begin, end;
 };
 
-enum class SolidKind { sphere, convex, prism, faces };
+enum class SolidKind { sphere, convex, prism, faces, volume };
+
+class RayVolume;
 
 /// One object, prepared.
 struct Solid {
@@ -33,8 +36,9 @@ struct Solid {
   Bounds world_box;
   std::vector<HalfSpace> sides;                         ///< convex, local axes
   std::vector<Vec2> outline;                            ///< prism, local axes; from z = 0 to box.max.z
-  std::vector<Vec3> vertices;                           ///< world; not for spheres
+  std::vector<Vec3> vertices;                           ///< world; not for spheres; volume: points inside
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< over vertices: convex and faces
+  std::shared_ptr<const RayVolume> field{};             ///< volume
 };
 
 /// Throws Error(bad_scene) for 2D shapes.

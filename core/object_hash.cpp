@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gridcull/core/hash.h"
+#include "gridcull/core/scalar_field.h"
 
 namespace gridcull {
 namespace {
@@ -42,14 +43,34 @@ struct WorldHash {
     add(s.vertices), add(s.triangles);
     if (s.closed) hash.add(1u);
   }
+  void add(const Pose& pose) {
+    add(pose.position);
+    const Quat& q = pose.orientation;
+    for (const double part : {q.w, q.x, q.y, q.z}) add(part);
+  }
+  void add(const LatticePoint& p) {
+    for (int k = 0; k < 3; ++k) hash.add(static_cast<std::uint32_t>(p[k]));
+  }
+  void add(float value) { hash.add(std::bit_cast<std::uint32_t>(value + 0.0f)); }
+  void add(const Volume& s) {
+    const ScalarField& field = *s.field;
+    add(field.frame().voxel), add(field.frame().pose), add(field.background());
+    add(s.iso), hash.add(s.inside_below ? 1u : 0u);
+    add(std::uint64_t{field.blocks().size()}), add(std::uint64_t{field.tiles().size()});
+    for (const FieldBlock& block : field.blocks()) {
+      add(block.origin);
+      for (const float value : block.values) add(value);
+    }
+    for (const FieldTile& tile : field.tiles()) {
+      add(tile.origin), hash.add(static_cast<std::uint32_t>(tile.side)), add(tile.value);
+    }
+  }
 
   void add(const Object& object) {
     hash.add(object.id);
     hash.add(static_cast<std::uint32_t>(object.shape.index()));
     std::visit([this](const auto& shape) { add(shape); }, object.shape);
-    add(object.pose.position);
-    const Quat& q = object.pose.orientation;
-    for (const double part : {q.w, q.x, q.y, q.z}) add(part);
+    add(object.pose);
     hash.add(object.occluder ? 1u : 0u);
   }
 };

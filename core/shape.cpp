@@ -86,8 +86,8 @@ double farthest(const std::vector<V>& points) {
 int dimension_of(const Shape& shape) { return shape.index() < 4 ? 2 : 3; }
 
 std::string_view name_of(const Shape& shape) {
-  constexpr std::array<std::string_view, 9> names{"disc", "box",   "polygon", "polyline", "sphere",
-                                                  "box",  "prism", "convex",  "faces"};
+  constexpr std::array<std::string_view, 10> names{"disc", "box",   "polygon", "polyline", "sphere",
+                                                   "box",  "prism", "convex",  "faces",    "volume"};
   const auto* faces = std::get_if<Faces>(&shape);
   return faces != nullptr && faces->closed ? "mesh" : names[shape.index()];
 }
@@ -104,7 +104,8 @@ double reach_of(const Shape& shape) {
           [](const Polygon& s) { return farthest(s.vertices); }, [](const Polyline& s) { return farthest(s.vertices); },
           [](const Sphere& s) { return s.radius; }, [](const Cuboid& s) { return 0.5 * glm::length(s.size); },
           [](const Prism& s) { return std::hypot(farthest(s.vertices), s.height); },
-          [](const Convex& s) { return farthest(s.vertices); }, [](const Faces& s) { return farthest(s.vertices); }},
+          [](const Convex& s) { return farthest(s.vertices); }, [](const Faces& s) { return farthest(s.vertices); },
+          [](const Volume& s) { return farthest(s.body->outer); }},
       shape);
   // Covers a dozen roundings of 2^-53 each and orientations that are off unit length by 1e-9.
   return exact * (1.0 + 1e-8);
@@ -154,6 +155,9 @@ void validate(const Shape& shape) {
                         if (holes.open_edges > 0) {
                           refuse(name, "expected no hole, found " + std::to_string(holes.open_edges) + " open edges");
                         }
+                      },
+                      [&](const Volume& s) {
+                        if (!s.field || !s.body) refuse(name, "expected one that make_volume() made");
                       }},
              shape);
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -57,12 +58,24 @@ struct Faces {
   bool closed = false;
 };
 
-using Shape = std::variant<Disc, Rectangle, Polygon, Polyline, Sphere, Cuboid, Prism, Convex, Faces>;
+class ScalarField;
+struct VolumeBody;
+
+/// What a field of floats (core/scalar_field.h) is less than, or greater than, a value in: its interior is where the
+/// trilinear interpolant is, strictly. Made by make_volume() (core/volume.h).
+struct Volume {
+  std::shared_ptr<const ScalarField> field;
+  double iso;                              ///< the value
+  bool inside_below;                       ///< the interior is where the field is less; else where it is greater
+  std::shared_ptr<const VolumeBody> body;  ///< what follows from these: solid boxes within it, corners about it
+};
+
+using Shape = std::variant<Disc, Rectangle, Polygon, Polyline, Sphere, Cuboid, Prism, Convex, Faces, Volume>;
 
 /// 2 or 3.
 int dimension_of(const Shape& shape);
 
-/// The name FORMATS gives it: "disc", "box", "polygon", ...; "mesh" for closed faces.
+/// The name FORMATS gives it: "disc", "box", "polygon", ...; "mesh" for closed faces; "volume".
 std::string_view name_of(const Shape& shape);
 
 /// Whether it is a thin shape (`Polyline`, `Faces` that are not closed): blocks on crossing, holds no cell.
@@ -84,7 +97,8 @@ std::vector<Vec2> merged_outline(const std::vector<Vec2>& vertices);
 std::vector<Vec2> world_outline(const Shape& shape, const Pose& pose);
 
 /// World vertices of a 3D shape: Cuboid (8: bit 0 = +x, bit 1 = +y, bit 2 = +z), Prism (outline at the
-/// bottom, then at the top), Convex and Faces (as given). Empty for a Sphere.
+/// bottom, then at the top), Convex and Faces (as given), Volume (corners of a polyhedron about it, some fifty at
+/// most). Empty for a Sphere.
 std::vector<Vec3> world_vertices(const Shape& shape, const Pose& pose);
 
 }  // namespace gridcull

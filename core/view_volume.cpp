@@ -9,6 +9,7 @@
 #include "gridcull/core/hull.h"
 #include "gridcull/core/mesh.h"
 #include "gridcull/core/trigonometry.h"
+#include "gridcull/core/volume.h"
 #include "gridcull/core/world_points.h"
 
 namespace gridcull {
@@ -194,6 +195,10 @@ bool interior_holds(const Shape& shape, const Pose& pose, const Vec3& point) {
     return local.z > 0.0 && local.z < prism->height && outline_holds(points, Vec2(local));
   }
   if (const auto* convex = std::get_if<Convex>(&shape)) return hull_holds(convex->vertices, local);
+  if (const auto* volume = std::get_if<Volume>(&shape)) {
+    if (glm::dot(d, d) > reach_of(shape) * reach_of(shape)) return false;
+    return depth_at(*volume, LatticeMap(volume->field->frame(), pose).to_lattice(point)) < 0.0;
+  }
   const auto* mesh = std::get_if<Faces>(&shape);
   return mesh != nullptr && mesh->closed && side_of_mesh(mesh->vertices, mesh->triangles, local) == MeshSide::inside;
 }

@@ -7,6 +7,7 @@
 
 #include "gridcull/core/pose.h"
 #include "gridcull/core/shape.h"
+#include "gridcull/core/volume_body.h"
 
 namespace gridcull {
 
@@ -42,6 +43,8 @@ void for_each_local_point(const Shape& shape, F&& f) {
     for (const Vec3& p : convex->vertices) f(p);
   } else if (const auto* faces = std::get_if<Faces>(&shape)) {
     for (const Vec3& p : faces->vertices) f(p);
+  } else if (const auto* volume = std::get_if<Volume>(&shape)) {
+    for (const Vec3& p : volume->body->outer) f(p);
   }
 }
 

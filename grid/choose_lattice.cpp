@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "gridcull/core/volume_body.h"
+
 namespace gridcull {
 namespace {
 
@@ -121,6 +123,7 @@ struct SmallerDimension {
   }
   double operator()(const Convex& s) const { return least_side(s.vertices); }
   double operator()(const Faces& s) const { return s.closed ? least_side(s.vertices) : 0.0; }
+  double operator()(const Volume& s) const { return least_side(s.body->outer); }
 
  private:
   static double least_side(const std::vector<Vec3>& vertices) {

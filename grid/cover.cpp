@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gridcull/core/hull.h"
+#include "gridcull/core/volume.h"
 #include "gridcull/grid/cover_frame.h"
 #include "gridcull/grid/cover_kernels.h"
 
@@ -159,6 +160,10 @@ struct PreparedShape::Detail {
   void cover(const Convex& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const;
   void cover(const Faces& s, const Lattice& lattice, const Pose& pose, CoverScratch& scratch, Cover& out) const;
 
+  void cover(const Volume& s, const Lattice& lattice, const Pose& pose, CoverScratch&, Cover& out) const {
+    covering::volume(lattice, s, pose, out);
+  }
+
   void cover_plane(const Lattice& lattice, const Pose& pose, bool closed, CoverScratch& scratch, Cover& out) const {
     const Rotation r = rotation_of(pose.orientation);
     scratch.outline.clear();
@@ -282,6 +287,7 @@ std::uint64_t PreparedShape::bytes() const {
   const auto add = [&](const auto& s) {
     if constexpr (requires { s.vertices; }) bytes += s.vertices.capacity() * sizeof(s.vertices[0]);
     if constexpr (requires { s.triangles; }) bytes += s.triangles.capacity() * sizeof(s.triangles[0]);
+    if constexpr (requires { s.field; }) bytes += bytes_of(s);
   };
   std::visit(add, d.shape);
   return bytes;

@@ -46,6 +46,9 @@ void prism(const Lattice& lattice, std::span<const Vec2> local, double height, c
 void fill_mesh(const Lattice& lattice, const std::vector<Vec3>& vertices,
                std::span<const std::array<std::uint32_t, 3>> triangles, CoverScratch& scratch, Cover& out);
 
+/// A volume; fills `out`, bricks ascending.
+void volume(const Lattice& lattice, const Volume& shape, const Pose& pose, Cover& out);
+
 /// Greatest |coordinate| of a box; 0 when empty.
 double magnitude_of(const Bounds& bounds);
 

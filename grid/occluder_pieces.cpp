@@ -7,6 +7,7 @@
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/error.h"
 #include "gridcull/core/hull.h"
+#include "gridcull/core/volume.h"
 #include "gridcull/grid/convex_parts.h"
 #include "gridcull/grid/flat_polygons.h"
 #include "gridcull/grid/outline_hull.h"
@@ -32,6 +33,18 @@ void add_faces(OccluderPieces& out, const Faces& faces) {
   std::stable_sort(polygons.begin(), polygons.end(),
                    [](const FlatPolygon& a, const FlatPolygon& b) { return area_of(a) > area_of(b); });
   for (const FlatPolygon& polygon : polygons) add(out, flat_piece(polygon));
+}
+
+/// A volume's box of cells: its corners by bits.
+ConvexPiece piece_of(const std::array<Vec3, 8>& corners) {
+  const Vec3 &low = corners[0], &high = corners[7], half = 0.5 * (high - low);
+  const bool along_axes = corners[1] == Vec3(high.x, low.y, low.z) && corners[2] == Vec3(low.x, high.y, low.z) &&
+                          corners[4] == Vec3(low.x, low.y, high.z);
+  // Both sums' rounding is far less than what inner_corners() has pulled in.
+  if (along_axes && half.x > 0.0 && half.y > 0.0 && half.z > 0.0) {
+    return box_piece(0.5 * (low + high), half, Rounding::inward);
+  }
+  return hull_piece(corners, Rounding::inward);
 }
 
 /// A box about all points along the given axes, a little thick where they are flat.
@@ -81,6 +94,8 @@ OccluderPieces make_occluder_pieces(const Shape& shape) {
     add(out, hull_piece(convex->vertices, Rounding::inward));
   } else if (const auto* faces = std::get_if<Faces>(&shape)) {
     add_faces(out, *faces);
+  } else if (const auto* volume = std::get_if<Volume>(&shape)) {
+    for (const LatticeBox& cells : volume->body->inner) add(out, piece_of(inner_corners(*volume, cells)));
   }
   return out;
 }
@@ -90,6 +105,7 @@ ConvexPiece make_outer_hull(const Shape& shape) {
   if (const auto* prism = std::get_if<Prism>(&shape)) return outer_prism(*prism);
   if (const auto* convex = std::get_if<Convex>(&shape)) return hull_about(convex->vertices);
   if (const auto* faces = std::get_if<Faces>(&shape)) return hull_about(faces->vertices);
+  if (const auto* volume = std::get_if<Volume>(&shape)) return hull_about(volume->body->outer);
   return {};
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "gridcull/core/hull.h"
+#include "gridcull/core/volume.h"
 #include "gridcull/core/world_points.h"
 
 namespace gridcull::extended {
@@ -229,10 +230,10 @@ void add_faces(const Faces& faces, const std::vector<Vec3>& world, double blur, 
   }
 }
 
-/// A box in local axes that holds a mesh.
-Piece box_about(const Faces& mesh, const Pose& pose, const Rotation& r) {
+/// A box in local axes that holds all points.
+Piece box_about(const std::vector<Vec3>& points, const Pose& pose, const Rotation& r) {
   Bounds box;
-  for (const Vec3& p : mesh.vertices) box.add(p);
+  for (const Vec3& p : points) box.add(p);
   Pose base = pose;
   base.position = to_world(pose, r, {0.0, 0.0, box.min.z});
   const Vec2 low(box.min), high(box.max);
@@ -287,7 +288,17 @@ Occluder make_occluder(const Object& object) {
     for (Vec3& normal : out.pieces.back().normals) normal = r * normal;
   } else if (const auto* faces = std::get_if<Faces>(&object.shape)) {
     add_faces(*faces, world, 0.25 * out.blur, out.pieces);
-    if (faces->closed) out.covers.push_back(box_about(*faces, object.pose, r));
+    if (faces->closed) out.covers.push_back(box_about(faces->vertices, object.pose, r));
+  } else if (const auto* volume = std::get_if<Volume>(&object.shape)) {
+    for (const LatticeBox& box : volume->body->inner) {
+      Piece& piece = out.pieces.emplace_back();
+      for (const Vec3& p : inner_corners(*volume, box)) piece.polytope.points.push_back(to_world(object.pose, r, p));
+      add_box_edges(piece.polytope);
+      const Rotation turn = rotation_of(volume->field->frame().pose.orientation);
+      for (const Vec3& axis : {turn.x, turn.y, turn.z})
+        piece.normals.insert(piece.normals.end(), {r * axis, -(r * axis)});
+    }
+    out.covers.push_back(box_about(volume->body->outer, object.pose, r));
   }
   for (Piece& piece : out.pieces) {
     set_width(piece);

@@ -6,6 +6,7 @@
 
 #include "gridcull/core/bounds.h"
 #include "gridcull/core/hull.h"
+#include "gridcull/core/volume.h"
 #include "gridcull/methods/even_odd.h"
 
 namespace gridcull {
@@ -142,6 +143,34 @@ void set_vertices(LocalShape& shape, const std::vector<Vec3>& vertices) {
   set_box(shape, box);
 }
 
+/// The boxes within it; where it is too thin to have any, what is about it.
+void set_volume(LocalShape& shape, const Volume& volume) {
+  set_vertices(shape, volume.body->outer);
+  if (volume.body->inner.empty()) {
+    shape.triangles = convex_hull(shape.vertices).triangles;
+    return;
+  }
+  shape.vertices.clear();
+  // Corners by bits: 1 = +x, 2 = +y, 4 = +z.
+  constexpr std::array<std::array<std::uint32_t, 3>, 12> triangles{{{0, 4, 6},
+                                                                    {0, 6, 2},
+                                                                    {1, 3, 7},
+                                                                    {1, 7, 5},
+                                                                    {0, 1, 5},
+                                                                    {0, 5, 4},
+                                                                    {2, 6, 7},
+                                                                    {2, 7, 3},
+                                                                    {0, 2, 3},
+                                                                    {0, 3, 1},
+                                                                    {4, 5, 7},
+                                                                    {4, 7, 6}}};
+  for (const LatticeBox& box : volume.body->inner) {
+    const auto base = static_cast<std::uint32_t>(shape.vertices.size());
+    for (const auto& t : triangles) shape.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+    for (const Vec3& p : inner_corners(volume, box)) shape.vertices.push_back(p);
+  }
+}
+
 void set_ball(LocalShape& shape, double radius) {
   shape.radius = radius;
   shape.half = shape.flat ? Vec3(radius, radius, 0.0) : Vec3(radius);
@@ -180,6 +209,9 @@ LocalShape make_local_shape(const Shape& shape) {
     out.kind = Kind::faces;
     out.triangles = faces->triangles;
     set_vertices(out, faces->vertices);
+  } else if (const auto* volume = std::get_if<Volume>(&shape)) {
+    out.kind = Kind::faces;
+    set_volume(out, *volume);
   }
   return out;
 }

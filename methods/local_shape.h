@@ -20,7 +20,7 @@ struct LocalShape {
     outline,  ///< Polygon (z without limits), Prism
     hull,     ///< Convex
     chain,    ///< Polyline: thin
-    faces     ///< Faces: thin
+    faces     ///< Faces: thin; Volume, by boxes within it
   };
   Kind kind = Kind::ball;
   Vec3 middle{0.0};                                       ///< of the local box; a ball's is its position

@@ -8,6 +8,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/core/hull.h"
+#include "gridcull/core/volume.h"
 #include "gridcull/methods/convex_partition.h"
 
 namespace gridcull {
@@ -87,14 +88,19 @@ OccluderPart solid(std::vector<Vec3> vertices, const std::vector<Loop>& loops) {
   return part;
 }
 
-OccluderPart box(const Cuboid& shape) {
-  std::vector<Vec3> vertices;
-  for (int i = 0; i < 8; ++i) {
-    vertices.push_back(0.5 * shape.size * Vec3((i & 1) ? 1.0 : -1.0, (i & 2) ? 1.0 : -1.0, (i & 4) ? 1.0 : -1.0));
-  }
+/// Corners by bits: 1 = +x, 2 = +y, 4 = +z.
+OccluderPart box_part(const std::array<Vec3, 8>& corners) {
   std::vector<Loop> loops;
   for (const auto& face : box_faces) loops.emplace_back(face.begin(), face.end());
-  return solid(std::move(vertices), loops);
+  return solid({corners.begin(), corners.end()}, loops);
+}
+
+OccluderPart box(const Cuboid& shape) {
+  std::array<Vec3, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) {
+    corners[i] = 0.5 * shape.size * Vec3((i & 1) ? 1.0 : -1.0, (i & 2) ? 1.0 : -1.0, (i & 4) ? 1.0 : -1.0);
+  }
+  return box_part(corners);
 }
 
 /// Every second, third, ... point where there are too many: a polygon in the polygon.
@@ -234,6 +240,9 @@ std::vector<OccluderPart> make_occluder_parts(const Shape& shape) {
   }
   if (const auto* convex = std::get_if<Convex>(&shape)) add_hull(convex->vertices, out);
   if (const auto* faces = std::get_if<Faces>(&shape)) add_triangles(*faces, out);
+  if (const auto* volume = std::get_if<Volume>(&shape)) {
+    for (const LatticeBox& box : volume->body->inner) out.push_back(box_part(inner_corners(*volume, box)));
+  }
   if (const auto* line = std::get_if<Polyline>(&shape)) add_walls(*line, out);
   return out;
 }

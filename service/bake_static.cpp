@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "gridcull/core/error.h"
+#include "gridcull/grid/openvdb_field.h"
 #include "gridcull/grid/openvdb_store.h"
 #include "gridcull/grid/static_cells.h"
 #include "gridcull/grid/static_volume.h"
@@ -26,7 +27,7 @@ PreparedWorld prepare(const WorldOptions& options) {
     mesh.max_memory = options.max_memory;
     scene = import_mesh(mesh).scene;
   } else {
-    scene = read_scene(options.scene, options.max_memory);
+    scene = read_scene(options.scene, options.max_memory, read_scalar_field);
   }
   scene.static_volume.clear();  // the file that is to be made
   return prepare_scene(options, std::move(scene), !options.frames.empty());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gridcull/core/error.h"
+#include "gridcull/grid/openvdb_field.h"
 #include "gridcull/service/bench_hidden.h"
 #include "gridcull/service/bench_still.h"
 #include "gridcull/service/interrupt.h"
@@ -166,7 +167,7 @@ BenchScene open_bench_scene(const std::string& text) {
   out.name = parse_bench_scene(text);
   std::optional<Survey> survey;
   if (out.name.kind.empty()) {
-    out.scene = read_scene(out.name.scene_path);
+    out.scene = read_scene(out.name.scene_path, std::uint64_t{4} << 30, read_scalar_field);
     if (!out.scene.bounds || !out.scene.cell) survey = survey_world(out.scene, out.name.frames_path);
   } else {
     out.scene = make_generator(out.name.kind, out.name.options)->scene();

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "gridcull/core/error.h"
+#include "gridcull/grid/openvdb_field.h"
 #include "gridcull/service/commands.h"
 #include "gridcull/service/file_roles.h"
 #include "gridcull/service/interrupt.h"
@@ -18,6 +19,7 @@
 #include "gridcull/sim/import_mesh.h"
 #include "gridcull/sim/import_petrack.h"
 #include "gridcull/sim/import_sumo.h"
+#include "gridcull/sim/import_volume.h"
 #include "gridcull/sim/scene_json.h"
 #include "gridcull/sim/world_files.h"
 
@@ -35,10 +37,15 @@ struct SumoCommand : Shared {
   std::vector<double> vehicle_size{};
 };
 
+/// How a file's axes lie in the world.
+struct PlaceOptions {
+  std::vector<double> orientation{}, heading_degrees{}, move{};
+};
+
 struct MeshCommand {
   std::string out{};
   std::string split = "parts";
-  std::vector<double> orientation{}, heading_degrees{}, move{};
+  PlaceOptions place{};
   MeshImportOptions mesh{};
 };
 
@@ -46,6 +53,12 @@ struct GeojsonCommand {
   std::string out{};
   std::vector<double> origin{};
   GeojsonOptions geojson{};
+};
+
+struct VolumeCommand {
+  PlaceOptions place{};
+  std::vector<double> below{}, above{};
+  VolumeImportOptions volume{};
 };
 
 struct PetrackCommand : Shared {
@@ -78,6 +91,7 @@ int write_import(const std::string& folder, int dimension, const std::vector<Nam
 }
 
 int import_sumo_files(SumoCommand options) {
+  options.sumo.read_field = read_scalar_field;
   options.sumo.viewers = named_as_typed([&] { return parse_viewer_choice(options.viewers); });
   if (const auto& b = options.box; !b.empty()) options.sumo.box = {b[0], b[1], b[2], b[3]};
   if (const auto& size = options.vehicle_size; !size.empty()) options.sumo.vehicle_size = {size[0], size[1]};
@@ -97,7 +111,7 @@ MeshImportOptions::Split split_of(const std::string& name) {
 }
 
 /// First the orientation, then the heading, then the move.
-Pose pose_of(const MeshCommand& options) {
+Pose pose_of(const PlaceOptions& options) {
   Pose out;
   if (const auto& q = options.orientation; !q.empty()) {
     try {
@@ -130,7 +144,7 @@ int write_statics(const std::string& folder, const std::string& file, Import&& i
 
 int import_mesh_file(MeshCommand options) {
   options.mesh.split = split_of(options.split);
-  options.mesh.pose = pose_of(options);
+  options.mesh.pose = pose_of(options.place);
   return write_statics(options.out, options.mesh.file, [&] { return import_mesh(options.mesh); });
 }
 
@@ -143,6 +157,18 @@ int import_geojson_file(GeojsonCommand options) {
     options.geojson.origin = {p[0], p[1]};
   }
   return write_statics(options.out, options.geojson.file, [&] { return import_geojson(options.geojson); });
+}
+
+int import_volume_file(VolumeCommand options) {
+  VolumeImportOptions& volume = options.volume;
+  if (options.below.empty() == options.above.empty()) {
+    throw Error(ErrorCode::usage, std::string("expected either --inside-below or --inside-above, found ") +
+                                      (options.below.empty() ? "neither" : "both"));
+  }
+  volume.inside_below = !options.below.empty();
+  volume.iso = volume.inside_below ? options.below[0] : options.above[0];
+  volume.pose = pose_of(options.place);
+  return write_statics(volume.out, volume.file, [&] { return import_volume(volume, read_scalar_field); });
 }
 
 int import_petrack_files(PetrackCommand options) {
@@ -219,6 +245,18 @@ void add_petrack(CLI::App& import, Action& action) {
   command.callback([options, &action] { action = [options] { return import_petrack_files(*options); }; });
 }
 
+void add_place(CLI::App& command, double& scale, PlaceOptions& place) {
+  add_positive(command, "--scale", scale, positive_metres(), "metres a unit of the file (default 1)");
+  add_numbers(command, "--orientation", place.orientation, 4, "four numbers W,X,Y,Z of magnitude at most 1e9",
+              "turns the model's axes: a quaternion (y up: 0.7071,0.7071,0,0)")
+      .type_name("W,X,Y,Z");
+  add_numbers(command, "--heading-degrees", place.heading_degrees, 1, "a number of magnitude at most 1e9",
+              "then turns it about +z, counter-clockwise")
+      .type_name("DEGREES");
+  add_numbers(command, "--move", place.move, 3, "three numbers X,Y,Z of magnitude at most 1e9", "then moves it, metres")
+      .type_name("X,Y,Z");
+}
+
 void add_mesh(CLI::App& import, Action& action) {
   const auto options = std::make_shared<MeshCommand>();
   CLI::App& command = *import.add_subcommand("mesh", "A 3D model (OBJ, PLY, STL, glTF, 3DS) as static objects");
@@ -230,16 +268,7 @@ void add_mesh(CLI::App& import, Action& action) {
   add_text(command, "--split", options->split, "parts, groups or whole",
            "an object for: parts that hang together (default), each group of the file, or the whole")
       .type_name("HOW");
-  add_positive(command, "--scale", mesh.scale, positive_metres(), "metres a unit of the file (default 1)");
-  add_numbers(command, "--orientation", options->orientation, 4, "four numbers W,X,Y,Z of magnitude at most 1e9",
-              "turns the model's axes: a quaternion (y up: 0.7071,0.7071,0,0)")
-      .type_name("W,X,Y,Z");
-  add_numbers(command, "--heading-degrees", options->heading_degrees, 1, "a number of magnitude at most 1e9",
-              "then turns it about +z, counter-clockwise")
-      .type_name("DEGREES");
-  add_numbers(command, "--move", options->move, 3, "three numbers X,Y,Z of magnitude at most 1e9",
-              "then moves it, metres")
-      .type_name("X,Y,Z");
+  add_place(command, mesh.scale, options->place);
   add_whole(command, "--max-memory", mesh.max_memory, memory_bytes(), "refuse a model that takes more (default 4 GiB)");
   command.footer(
       "Example: a model of a town whose z axis points down\n"
@@ -271,17 +300,45 @@ void add_geojson(CLI::App& import, Action& action) {
   command.callback([options, &action] { action = [options] { return import_geojson_file(*options); }; });
 }
 
+void add_volume(CLI::App& import, Action& action) {
+  const auto options = std::make_shared<VolumeCommand>();
+  CLI::App& command =
+      *import.add_subcommand("volume", "A level set or fog volume (.vdb) of any program as a static object");
+  VolumeImportOptions& volume = options->volume;
+  command.add_option("FILE", volume.file, "the volume")->required();
+  add_numbers(command, "--inside-below", options->below, 1, "a number of magnitude at most 1e9",
+              "what is less than this is inside (a level set: 0)")
+      .type_name("ISO");
+  add_numbers(command, "--inside-above", options->above, 1, "a number of magnitude at most 1e9",
+              "what is greater than this is inside (a fog volume: 0.5)")
+      .type_name("ISO");
+  add_text(command, "--grid", volume.grid, "a grid's name", "which grid of the file (default: the first of floats)")
+      .type_name("NAME");
+  add_text(command, "--out", volume.out, "a folder", "folder for scene.json and frames.jsonl")
+      .required()
+      ->type_name("DIR");
+  add_place(command, volume.scale, options->place);
+  add_whole(command, "--max-memory", volume.max_memory, memory_bytes(),
+            "refuse a volume that takes more (default 4 GiB)");
+  command.footer(
+      "The scene names FILE, which must stay where it is.\n\n"
+      "Example: a level set, turned so that its y axis points up\n"
+      "  gridcull import volume bunny.vdb --inside-below 0 --orientation 0.7071,0.7071,0,0 --out bunny");
+  command.callback([options, &action] { action = [options] { return import_volume_file(*options); }; });
+}
+
 }  // namespace
 
 void add_import_command(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand(
-      "import", "Write a world from the files of SUMO or PeTrack, a 3D model, or footprints of buildings");
+      "import", "Write a world from the files of SUMO or PeTrack, a 3D model, a volume, or footprints of buildings");
   command.require_subcommand(1);
   command.footer("Example:\n  gridcull import sumo --fcd fcd.xml.gz --buildings town.poly.xml --out town");
   add_sumo(command, action);
   add_petrack(command, action);
   add_mesh(command, action);
   add_geojson(command, action);
+  add_volume(command, action);
 }
 
 }  // namespace gridcull

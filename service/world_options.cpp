@@ -9,6 +9,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/grid/engine.h"
+#include "gridcull/grid/openvdb_field.h"
 #include "gridcull/grid/static_volume.h"
 #include "gridcull/service/interrupt.h"
 #include "gridcull/service/option_values.h"
@@ -152,7 +153,7 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
 
 PreparedWorld prepare_world(const WorldOptions& options, bool always_survey) {
   check_options(options);
-  return prepare_scene(options, read_scene(options.scene, options.max_memory), always_survey);
+  return prepare_scene(options, read_scene(options.scene, options.max_memory, read_scalar_field), always_survey);
 }
 
 PreparedWorld prepare_scene(const WorldOptions& options, Scene scene, bool always_survey) {

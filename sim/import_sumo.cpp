@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "gridcull/core/error.h"
 #include "gridcull/core/world_points.h"
@@ -14,6 +15,11 @@
 
 namespace gridcull {
 namespace {
+
+/// Of a file that a scene names, which goes into a scene of another folder.
+std::string absolute_path(const std::string& file, const std::string& scene) {
+  return std::filesystem::absolute(std::filesystem::path(scene).parent_path() / file).lexically_normal().string();
+}
 
 /// Buildings and movers get ids above those of static objects.
 constexpr ObjectId most_static_id = 1'000'000'000;
@@ -66,6 +72,7 @@ class Import {
       }
       next = std::max(next, object.object.id + 1);
       object.mesh.reset();  // its file is named relative to that scene: the triangles themselves go along
+      if (object.volume) object.volume->file = absolute_path(object.volume->file, options_.statics);
       out.scene.objects.push_back(object);
     }
     if (!options_.buildings.empty()) {
@@ -101,7 +108,7 @@ class Import {
   }
   static Scene statics_of(const SumoOptions& options) {
     if (options.statics.empty()) return {};
-    Scene scene = read_scene(options.statics);
+    Scene scene = read_scene(options.statics, std::uint64_t{4} << 30, options.read_field);
     if (scene.dimension == 2 && options.height) {
       throw Error(ErrorCode::usage, "static: expected a 3D scene with --height, found a 2D one");
     }

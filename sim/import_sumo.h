@@ -27,6 +27,7 @@ struct SumoOptions {
   std::uint64_t every = 1;  ///< keep steps 0, N, 2N ...
   /// Scene file whose static objects come first, with their ids; "" for none. When it is 3D, the world is.
   std::string statics{};
+  FieldReader read_field{};  ///< for volumes among them
   /// Metres. Given: the world is 3D; buildings whose polygon has no <param key="height"> are as high as this.
   std::optional<double> height{};
   double vehicle_height = 1.5, person_height = 1.75, eye_height = 1.2;  ///< metres, in 3D

@@ -1,14 +1,35 @@
 #include "gridcull/sim/mesh_shelf.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/volume.h"
 
 namespace gridcull {
 
-MeshShelf::MeshShelf(const std::string& scene_path, std::uint64_t max_memory)
+MeshShelf::MeshShelf(const std::string& scene_path, std::uint64_t max_memory, FieldReader read_field)
     : folder_(scene_path == "-" ? "" : std::filesystem::path(scene_path).parent_path().string()),
-      max_memory_(max_memory) {}
+      max_memory_(max_memory),
+      read_field_(std::move(read_field)) {}
+
+Volume MeshShelf::take(const VolumeSource& source, double iso, bool inside_below) {
+  if (!read_field_) throw Error(ErrorCode::bad_scene, source.file + ": volumes are not read here");
+  std::shared_ptr<const ScalarField>& field = fields_[{source.file, source.grid, source.scale}];
+  if (!field) {
+    const std::string path = (std::filesystem::path(folder_) / source.file).string();
+    field = std::make_shared<const ScalarField>(read_field_(path, source.grid, max_memory_).scaled(source.scale));
+  }
+  Volume& volume = volumes_[{field.get(), iso, inside_below}];
+  if (!volume.body) {
+    try {
+      volume = make_volume(field, iso, inside_below);
+    } catch (const Error& fault) {
+      throw Error(fault.code(), source.file + ": " + fault.what());
+    }
+  }
+  return volume;
+}
 
 MeshGroup MeshShelf::take(const std::string& file, const std::string& group) {
   const auto [place, is_new] = files_.try_emplace(file);

@@ -82,8 +82,8 @@ Scene read_scene(const JsonRef& root, MeshShelf* meshes) {
   return scene;
 }
 
-Scene read_scene(const std::string& path, std::uint64_t max_mesh_memory) {
-  MeshShelf meshes(path, max_mesh_memory);
+Scene read_scene(const std::string& path, std::uint64_t max_mesh_memory, const FieldReader& read_field) {
+  MeshShelf meshes(path, max_mesh_memory, read_field);
   return parse_scene(read_text(path), path == "-" ? "standard input" : path, &meshes);
 }
 

@@ -4,6 +4,7 @@
 // stood there, as in `town.json: /objects/3/shape/radius: expected a number above 0, found -1`.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -18,6 +19,7 @@
 namespace gridcull {
 
 class MeshShelf;
+class ScalarField;
 
 /// The file that a shape came from, and the group in it; "" for all of it.
 struct MeshSource {
@@ -25,12 +27,24 @@ struct MeshSource {
   std::string group{};
 };
 
+/// The file that a volume's field came from.
+struct VolumeSource {
+  std::string file{};  ///< relative to the scene file
+  std::string grid{};  ///< "": the first one of floats
+  double scale = 1.0;  ///< metres a unit of the file
+};
+
+/// Reads a grid of a volume file ("": the first one of floats) that may take so many bytes. Throws Error. The service
+/// gives it; who has none reads no volumes.
+using FieldReader = std::function<ScalarField(const std::string& path, const std::string& grid, std::uint64_t most)>;
+
 /// An object as a scene or frames file gives it.
 struct SceneObject {
   Object object{};
-  std::string name{};                ///< "" when the file gives none
-  std::optional<double> heading{};   ///< radians, as given; object.pose.orientation is turn_about_z() of it
-  std::optional<MeshSource> mesh{};  ///< where the shape, Faces, came from
+  std::string name{};                    ///< "" when the file gives none
+  std::optional<double> heading{};       ///< radians, as given; object.pose.orientation is turn_about_z() of it
+  std::optional<MeshSource> mesh{};      ///< where the shape, Faces, came from
+  std::optional<VolumeSource> volume{};  ///< where the shape, a Volume, came from
 };
 
 /// A viewer as a scene gives it.
@@ -58,13 +72,14 @@ struct Scene {
   std::string static_volume{};  ///< file of the static objects' cells, relative to the scene file; "": none
 };
 
-/// Reads a scene file ("-" is standard input, .gz is unpacked) and the meshes that it names (sim/mesh_shelf.h), which
-/// may take `max_mesh_memory` bytes. Throws Error(io), Error(bad_message) for text that is not JSON, Error(limit) for
-/// meshes that are too big and Error(bad_scene) for everything else.
-Scene read_scene(const std::string& path, std::uint64_t max_mesh_memory = std::uint64_t{4} << 30);
+/// Reads a scene file ("-" is standard input, .gz is unpacked) and the meshes and volumes that it names
+/// (sim/mesh_shelf.h), each of which may take `max_mesh_memory` bytes. Throws Error(io), Error(bad_message) for text
+/// that is not JSON, Error(limit) for meshes and volumes that are too big and Error(bad_scene) for everything else.
+Scene read_scene(const std::string& path, std::uint64_t max_mesh_memory = std::uint64_t{4} << 30,
+                 const FieldReader& read_field = {});
 
-/// The same from text; `source_name` stands at the front of refusals. Without a shelf files of meshes and of static cells
-/// are refused.
+/// The same from text; `source_name` stands at the front of refusals. Without a shelf files of meshes, volumes and
+/// static cells are refused.
 Scene parse_scene(std::string_view text, const std::string& source_name, MeshShelf* meshes = nullptr);
 
 /// Writes a scene so that reading it gives the same bits. "-" is standard output; .gz packs; the file

@@ -152,7 +152,7 @@ SceneObject read_object(const JsonRef& json, int dimension, MeshShelf* meshes) {
   out.object.id = json.at("id").id();
   if (const auto name = json.find("name")) out.name = name->string();
   if (const auto is_static = json.find("static")) out.object.is_static = is_static->boolean();
-  out.object.shape = read_shape(json.at("shape"), dimension, meshes, &out.mesh);
+  out.object.shape = read_shape(json.at("shape"), dimension, meshes, &out.mesh, &out.volume);
   out.object.pose.position = json.at("position").point(dimension);
   const Direction direction = read_direction(json, dimension);
   if (direction.orientation) out.object.pose.orientation = *direction.orientation;
@@ -209,6 +209,8 @@ void append_object(std::string& out, const SceneObject& object, int dimension) {
   append_key(out, "shape");
   if (object.mesh) {
     append_mesh(out, *object.mesh);
+  } else if (object.volume) {
+    append_volume(out, *object.volume, std::get<Volume>(o.shape));
   } else {
     append_shape(out, o.shape);
   }

@@ -57,6 +57,27 @@ Shape read_mesh_shape(const JsonRef& json, MeshShelf* meshes, std::optional<Mesh
   }
 }
 
+Shape read_volume_shape(const JsonRef& json, MeshShelf* shelf, std::optional<VolumeSource>* source) {
+  json.only_keys({"type", "file", "grid", "scale", "inside_below", "inside_above"});
+  if (shelf == nullptr) json.at("type").refuse_with("\"volume\" shapes stand in scene files only");
+  VolumeSource from{std::string(json.at("file").string())};
+  if (const auto grid = json.find("grid")) from.grid = grid->string();
+  if (const auto scale = json.find("scale")) from.scale = scale->positive();
+  const auto below = json.find("inside_below"), above = json.find("inside_above");
+  if (below.has_value() == above.has_value()) {
+    json.refuse_with("expected either \"inside_below\" or \"inside_above\", found " +
+                     std::string(below ? "both" : "neither"));
+  }
+  const double iso = (below ? *below : *above).number();
+  try {
+    Volume volume = shelf->take(from, iso, below.has_value());
+    if (source != nullptr) *source = std::move(from);
+    return volume;
+  } catch (const Error& fault) {
+    json.at("file").refuse_with(fault.code(), fault.what());
+  }
+}
+
 Shape read_2d(const JsonRef& json, std::string_view type) {
   if (type == "disc") {
     json.only_keys({"type", "radius"});
@@ -96,7 +117,7 @@ Shape read_3d(const JsonRef& json, std::string_view type) {
     json.only_keys({"type", "vertices", "triangles", "closed"});
     return read_faces(json);
   }
-  json.at("type").refuse("a 3D shape: sphere, box, prism, convex, faces or mesh");
+  json.at("type").refuse("a 3D shape: sphere, box, prism, convex, faces, mesh or volume");
 }
 
 void append_points(std::string& out, const std::vector<Vec2>& points) {
@@ -161,15 +182,20 @@ struct Members {
     append_key(out, "closed");
     out += "true";
   }
+  void operator()(const Volume&) const {
+    throw Error(ErrorCode::bad_scene, "volume: expected one from a file, since only its name is written");
+  }
 };
 
 }  // namespace
 
-Shape read_shape(const JsonRef& json, int dimension, MeshShelf* meshes, std::optional<MeshSource>* source) {
+Shape read_shape(const JsonRef& json, int dimension, MeshShelf* meshes, std::optional<MeshSource>* mesh,
+                 std::optional<VolumeSource>* volume) {
   const std::string_view type = json.at("type").string();
-  Shape shape = dimension == 2   ? read_2d(json, type)
-                : type == "mesh" ? read_mesh_shape(json, meshes, source)
-                                 : read_3d(json, type);
+  Shape shape = dimension == 2     ? read_2d(json, type)
+                : type == "mesh"   ? read_mesh_shape(json, meshes, mesh)
+                : type == "volume" ? read_volume_shape(json, meshes, volume)
+                                   : read_3d(json, type);
   try {
     validate(shape);
   } catch (const Error& fault) {
@@ -195,6 +221,25 @@ void append_mesh(std::string& out, const MeshSource& source) {
   if (!source.group.empty()) {
     append_key(out, "group");
     append_string(out, source.group);
+  }
+  out += '}';
+}
+
+void append_volume(std::string& out, const VolumeSource& source, const Volume& volume) {
+  out += '{';
+  append_key(out, "type");
+  append_string(out, "volume");
+  append_key(out, "file");
+  append_string(out, source.file);
+  if (!source.grid.empty()) {
+    append_key(out, "grid");
+    append_string(out, source.grid);
+  }
+  append_key(out, volume.inside_below ? "inside_below" : "inside_above");
+  append_number(out, volume.iso);
+  if (source.scale != 1.0) {
+    append_key(out, "scale");
+    append_number(out, source.scale);
   }
   out += '}';
 }

@@ -6,6 +6,7 @@
 #include "gridcull/core/error.h"
 #include "gridcull/core/trigonometry.h"
 #include "random_meshes.h"
+#include "random_volumes.h"
 
 namespace gridcull::test {
 namespace {
@@ -198,9 +199,15 @@ Shape Scenery::faces() {
   return Faces{points, {{0, 1, 2}, {2, 3, 4}}};
 }
 
+Shape Scenery::volume() {
+  const double s = chance(0.5) ? extent_ * random_.uniform(0.2, 0.8) : size();
+  std::mt19937_64 dice(random_.below(1u << 30));
+  return random_volume(dice, 0.5 * s);
+}
+
 Shape Scenery::shape_3d() {
-  if (crowd_ && chance(big_)) return Cuboid{wall()};
-  switch (random_.below(7)) {
+  if (crowd_ && chance(big_)) return chance(0.1) ? volume() : Shape(Cuboid{wall()});
+  switch (random_.below(8)) {
     case 0: return Sphere{0.5 * size()};
     case 1:
     case 2:
@@ -211,6 +218,7 @@ Shape Scenery::shape_3d() {
     }
     case 4: return Prism{outline(), size()};
     case 5: return convex();
+    case 6: return volume();
     default: return faces();
   }
 }

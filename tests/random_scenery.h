@@ -44,6 +44,7 @@ class Scenery {
   std::vector<Vec2> outline();
   Shape convex();
   Shape faces();
+  Shape volume();
   Object beside(const Object& other);
   Vec3 viewpoint(const std::vector<Object>& objects);
   Vec3 on_object(const Object& object);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "gridcull/core/volume_body.h"
 #include "shrink.h"
 
 namespace gridcull::test {
@@ -56,6 +57,9 @@ std::string text(const Shape& shape) {
         return "std::array<std::uint32_t, 3>{" + text(t[0]) + ", " + text(t[1]) + ", " + text(t[2]) + "}";
       });
       return "Faces{" + points(s.vertices) + ", {" + triangles + "}}";
+    }
+    std::string operator()(const Volume& s) const {
+      return "Sphere{1} /* a volume about " + points(s.body->outer) + ": run the seed */";
     }
   };
   return std::visit(Visitor{}, shape);

@@ -239,7 +239,7 @@ class Shrinker {
             for (int k = 0; k < best_.dimension; ++k) {
               changed = simplify_number([&, k](WorldScript& s) -> double& { return shape(s).size[k]; }) || changed;
             }
-          } else {
+          } else if constexpr (requires { Kind::vertices; }) {
             changed = simplify_vertices(shape);
           }
           return changed;

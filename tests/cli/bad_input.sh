@@ -182,6 +182,16 @@ printf "$scene3" '{"type": "mesh", "file": "missing.obj"}' >mesh.json
 refused "a scene whose mesh is missing" "mesh.json: /objects/0/shape/file: " info mesh.json
 printf "$scene3" '{"type": "mesh", "file": "one.obj", "group": "roof"}' >mesh.json
 refused "a scene whose mesh lacks the group" "expected one of its groups .*found 'roof'" info mesh.json
+# The same lines where OpenVDB is not built in, but for what the file is.
+refused "no volume" "(missing.vdb: cannot be read as a volume: expected a file|OpenVDB)" import volume missing.vdb --inside-below 0 --out out/v
+refused "a volume of text" "(fcd.xml: cannot be read as a volume|OpenVDB)" import volume fcd.xml --inside-below 0 --out out/v
+refused "a volume without a value" "found neither" import volume fcd.xml --out out/v
+refused "a volume of two values" "found both" import volume fcd.xml --inside-below 0 --inside-above 1 --out out/v
+refused "a volume's value in words" "--inside-below" import volume fcd.xml --inside-below sea --out out/v
+printf "$scene3" '{"type": "volume", "file": "missing.vdb", "inside_below": 0}' >volume.json
+refused "a scene whose volume is missing" "volume.json: /objects/0/shape/file: " info volume.json
+printf "$scene3" '{"type": "volume", "file": "missing.vdb"}' >volume.json
+refused "a scene whose volume has no value" "volume.json: /objects/0/shape: expected either" info volume.json
 refused "a box of three" "box" import sumo --fcd fcd.xml --box 0,0,1 --out out/town
 refused "a viewer that never comes" "nobody" import sumo --fcd fcd.xml --viewers nobody --out out/town
 : >empty.txt
