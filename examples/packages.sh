@@ -3,7 +3,7 @@
 
 packages_program="build-essential cmake ninja-build libglm-dev libtbb-dev nlohmann-json3-dev libcli11-dev
   libpugixml-dev zlib1g-dev libboost-dev libembree-dev
-  libassimp-dev prometheus-cpp-dev"
+  libassimp-dev libopenvdb-dev prometheus-cpp-dev"
 packages_sumo="sumo sumo-tools python3"
 packages_crowd="librecast-dev python3"
 packages_tests="$packages_program $packages_sumo $packages_crowd git doctest-dev libcgal-dev gnuplot-nox
