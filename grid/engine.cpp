@@ -23,6 +23,10 @@ GridEngine::GridEngine(const GridOptions& options) {
   if (options.static_cells && !options.static_cells->fit(state_->world.lattice)) {
     throw Error(ErrorCode::bad_scene, "static cells: expected those of this lattice, found another's");
   }
+  if (options.static_tiles && options.hiding == Hiding::voxel) {
+    GridWorld& world = state_->world;
+    world.tiles = std::make_unique<TileStream>(options.static_tiles, world.lattice, options.static_memory);
+  }
 }
 
 GridEngine::~GridEngine() = default;
@@ -87,6 +91,7 @@ void GridEngine::query(double time, std::span<const View> views, Answers& out) {
   s.started = true;
   s.expire();
   s.discretise();
+  if (s.world.tiles) s.world.tiles->follow(views, s.world.objects, s.world.matrix);
   s.note_viewers(views);
   const auto ready = std::chrono::steady_clock::now();
   try {
@@ -120,7 +125,7 @@ MemoryUse GridEngine::memory() const {
   use.matrices = s.world.matrix.matrix_bytes() + s.world.tbv.matrix_bytes() + s.world.hollow.matrix_bytes() +
                  s.world.seen_in.bytes();
   use.entries = s.world.matrix.entry_bytes() + s.world.tbv.entry_bytes() + s.world.hollow.entry_bytes();
-  use.objects = s.world.objects.bytes() + s.expiries.bytes();
+  use.objects = s.world.objects.bytes() + s.expiries.bytes() + tiles().directory;
   for (Slot slot = 0; slot < s.world.objects.size(); ++slot) {
     const ObjectState& state = s.world.objects[slot];
     if (state.shape) use.objects += state.shape->bytes();
@@ -133,5 +138,7 @@ MemoryUse GridEngine::memory() const {
   for (const auto& task : s.tasks) use.viewers += task->bytes();
   return use;
 }
+
+TileUse GridEngine::tiles() const { return state_->world.tiles ? state_->world.tiles->use() : TileUse{}; }
 
 }  // namespace gridcull

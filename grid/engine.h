@@ -12,6 +12,8 @@
 #include "gridcull/grid/lattice.h"
 #include "gridcull/grid/static_cells.h"
 #include "gridcull/grid/static_store.h"
+#include "gridcull/grid/static_tiles.h"
+#include "gridcull/grid/tile_stream.h"
 
 namespace gridcull {
 
@@ -48,6 +50,10 @@ struct GridOptions {
   /// Cells that were discretised before, of static objects that may be added; those that it does not hold, or holds
   /// otherwise, are discretised. Let go once used. Must fit the lattice.
   std::shared_ptr<const StaticCells> static_cells{};
+  /// `voxel`: the same, read as viewers come near and let go again (tile_stream.h), for the static objects that are
+  /// added before the first query and stay as they are. Must fit the lattice.
+  std::shared_ptr<TiledCells> static_tiles{};
+  std::uint64_t static_memory = std::uint64_t{1} << 30;  ///< bytes for cells of static_tiles
 };
 
 const MethodInfo& grid_engine_info(Hiding hiding);
@@ -65,8 +71,8 @@ struct MemoryUse {
 /// thread at a time (it runs threads of its own inside query()).
 class GridEngine final : public Culler {
  public:
-  /// Throws Error(bad_scene) or Error(limit) as Lattice does, Error(bad_scene) for static cells of another lattice, and
-  /// Error(usage) for threads out of range or a store that is not there.
+  /// Throws Error(bad_scene) or Error(limit) as Lattice does, Error(bad_scene) for static cells or tiles of another
+  /// lattice, and Error(usage) for threads out of range or a store that is not there.
   explicit GridEngine(const GridOptions& options);
   ~GridEngine() override;
 
@@ -83,6 +89,8 @@ class GridEngine final : public Culler {
 
   const Lattice& lattice() const;
   MemoryUse memory() const;
+  /// What is held of GridOptions::static_tiles; zeros without.
+  TileUse tiles() const;
 
  private:
   struct State;

@@ -82,6 +82,7 @@ void GridEngine::State::add(const Object& object) {
   state.max_speed = object.max_speed ? *object.max_speed : -1.0;
   if (state.max_speed > 0.0) state.term = static_cast<float>(terms.first(state.max_speed));
   state.known = object.is_static && options.static_cells && options.static_cells->find(object) != nullptr;
+  state.tiled = world.tiles != nullptr && world.tiles->adopt(object, slot);
   state.place = Place::waiting;
   waiting.push_back(slot);
   const std::size_t slots = world.objects.size();
@@ -101,6 +102,7 @@ void GridEngine::State::add(const Object& object) {
 void GridEngine::State::remove(Slot slot) {
   ObjectState& state = world.objects[slot];
   const Place place = state.place;
+  leave_tiles(slot);
   leave_grid(slot);
   // Only the lists that can hold the slot are searched, from the back: what came last mostly goes first.
   const auto drop = [&](std::vector<Slot>& list) {
@@ -147,6 +149,7 @@ void GridEngine::State::move(Slot slot, const Pose& pose) {
   note_pushed(slot, pose.position);
   state.pose = pose;
   state.known = false;
+  leave_tiles(slot);
   if (state.place == Place::hidden) return;  // settled when the frame's time is known
   if (follows_at_once() && state.place == Place::active && !state.stale &&
       world.silhouettes->follow_own(slot, state.pose)) {
@@ -202,9 +205,16 @@ void GridEngine::State::cover(Slot slot) {
     set_outside(slot, !world.silhouettes->enter(slot, world.silhouettes->ball_at(slot, state.pose)));
     return;
   }
+  if (state.tiled) return set_outside(slot, world.tiles->reaches_outside(state.id));
   find_cells(slot);
   world.matrix.update(slot, cover_buffer, state.occluder, state.is_static, state.entries);
   set_outside(slot, cover_buffer.outside);
+}
+
+void GridEngine::State::leave_tiles(Slot slot) {
+  ObjectState& state = world.objects[slot];
+  if (state.tiled) world.tiles->release(state.id);
+  state.tiled = false;
 }
 
 void GridEngine::State::leave_grid(Slot slot) {

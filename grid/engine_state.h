@@ -73,6 +73,8 @@ struct GridEngine::State {
   bool lengthen_term(ObjectState& state);
   void take_volume(Slot slot);
   void leave_grid(Slot slot);
+  /// The object's cells no longer come from tiles.
+  void leave_tiles(Slot slot);
   void set_outside(Slot slot, bool outside);
   Slot slot_of(ObjectId object) const;
 

@@ -15,6 +15,7 @@
 #include "gridcull/grid/object_table.h"
 #include "gridcull/grid/silhouette_world.h"
 #include "gridcull/grid/tbv_matrix.h"
+#include "gridcull/grid/tile_stream.h"
 
 namespace gridcull {
 
@@ -32,6 +33,7 @@ struct GridWorld {
   TbvMatrix tbv;                                 // T, solid
   HollowTbv hollow;                              // T, outlines
   ObjectTable objects;
+  std::unique_ptr<TileStream> tiles;  // static cells that are read as viewers come near; mostly none
   /// Slots that reach beyond the lattice, active objects and hidden volumes: tested one by one.
   std::vector<Slot> outside;
 

@@ -31,6 +31,7 @@ struct ObjectState {
   bool hollow = false;                 ///< hidden: its volume is entered as an outline
   bool jumped = false;                 ///< announced for the frame to come
   bool known = false;                  ///< static: its cells here are among GridOptions::static_cells
+  bool tiled = false;                  ///< static: its cells come from GridWorld::tiles
   std::uint8_t patience = 0;           ///< active: frames it may still be unseen before it is hidden again
   std::uint32_t active_place = none;   ///< active and moving: its place in the engine's list
   std::uint32_t outside_place = none;  ///< outside: its place in GridWorld::outside

@@ -17,11 +17,13 @@ bool has_openvdb() { return false; }
 
 std::unique_ptr<StaticStore> make_openvdb_store(const Lattice&) { refuse(); }
 
-void write_static_volume(const std::string&, const StaticCells&) { refuse(); }
+void write_static_volume(const std::string&, const StaticCells&, int) { refuse(); }
 
 StaticCells read_static_volume_head(const std::string&) { refuse(); }
 
 StaticCells read_static_volume(const std::string&, std::uint64_t) { refuse(); }
+
+std::unique_ptr<TiledCells> open_static_volume_tiles(const std::string&) { refuse(); }
 
 ScalarField read_scalar_field(const std::string&, const std::string&, std::uint64_t) { refuse(); }
 

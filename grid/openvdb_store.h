@@ -1,5 +1,5 @@
 // The static store in OpenVDB's trees (Museth 2013): one leaf of a tree for 8 x 8 x 8 bricks that hold anything.
-// Only openvdb.cpp sees OpenVDB's headers; openvdb_missing.cpp takes its place where it is not there.
+// Only openvdb_*.cpp see OpenVDB's headers; openvdb_missing.cpp takes their place where it is not there.
 #pragma once
 
 #include <memory>

@@ -106,36 +106,44 @@ SharedCells share_cells(const StaticCells& cells) {
   return out;
 }
 
-void unshare_cells(const SharedCells& shared, std::uint64_t max_memory, StaticCells& cells) {
-  struct Piece {
-    std::uint32_t member;
-    BrickCover cover;
-  };
-  std::vector<Piece> pieces;
-  for (const SharedCells::Part& part : shared.parts) {
-    if (part.list >= shared.lists.size()) {
+void covers_of(std::span<const SharedCells::Part> parts, std::span<const std::vector<SharedCells::Owner>> lists,
+               std::uint64_t max_memory, std::vector<MemberBrick>& out) {
+  out.clear();
+  for (const SharedCells::Part& part : parts) {
+    if (part.list >= lists.size()) {
       throw Error(ErrorCode::bad_scene, "object: expected the number of a list, found " + std::to_string(part.list));
     }
-    for (const SharedCells::Owner& owner : shared.lists[part.list]) {
-      pieces.push_back({owner.member, {part.brick, part.cells, owner.fills ? part.cells : 0}});
+    for (const SharedCells::Owner& owner : lists[part.list]) {
+      out.push_back({owner.member, {part.brick, part.cells, owner.fills ? part.cells : 0}});
     }
-    check_brick_memory(pieces.size(), max_memory);
+    check_brick_memory(out.size(), max_memory);
   }
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+  std::sort(out.begin(), out.end(), [](const MemberBrick& a, const MemberBrick& b) {
     return a.member != b.member ? a.member < b.member : a.cover.brick < b.cover.brick;
   });
-  cells.bricks.clear();
-  for (StaticCells::Member& member : cells.members) member.count = 0;
-  for (const Piece& piece : pieces) {
-    StaticCells::Member& member = cells.members.at(piece.member);
-    if (member.count == 0) member.first = cells.bricks.size();
-    if (member.count > 0 && cells.bricks.back().brick == piece.cover.brick) {
-      cells.bricks.back().touched |= piece.cover.touched;
-      cells.bricks.back().opaque |= piece.cover.opaque;
-      continue;
+  // An object's cells of one brick may be of several parts.
+  std::size_t kept = 0;
+  for (const MemberBrick& next : out) {
+    if (kept > 0 && out[kept - 1].member == next.member && out[kept - 1].cover.brick == next.cover.brick) {
+      out[kept - 1].cover.touched |= next.cover.touched;
+      out[kept - 1].cover.opaque |= next.cover.opaque;
+    } else {
+      out[kept++] = next;
     }
-    cells.bricks.push_back(piece.cover);
-    ++member.count;
+  }
+  out.resize(kept);
+}
+
+void unshare_cells(const SharedCells& shared, std::uint64_t max_memory, StaticCells& cells) {
+  std::vector<MemberBrick> covers;
+  covers_of(shared.parts, shared.lists, max_memory, covers);
+  cells.bricks.clear();
+  cells.bricks.reserve(covers.size());
+  for (StaticCells::Member& member : cells.members) member.count = 0;
+  for (const MemberBrick& at : covers) {
+    StaticCells::Member& member = cells.members.at(at.member);
+    if (member.count++ == 0) member.first = cells.bricks.size();
+    cells.bricks.push_back(at.cover);
   }
 }
 

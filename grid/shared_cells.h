@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,8 +34,12 @@ struct SharedCells {
 
 SharedCells share_cells(const StaticCells& cells);
 
-/// The other way: sets `bricks` and every member's range of them. Parts may come in any order. Throws Error(bad_scene)
-/// for numbers that are not there, Error(limit) for more than `max_memory` bytes.
+/// The parts by object, ascending by member and brick. Parts may come in any order. Throws Error(bad_scene) for numbers
+/// that are not there, Error(limit) for more than `max_memory` bytes.
+void covers_of(std::span<const SharedCells::Part> parts, std::span<const std::vector<SharedCells::Owner>> lists,
+               std::uint64_t max_memory, std::vector<MemberBrick>& out);
+
+/// The other way: sets `bricks` and every member's range of them. Throws as covers_of() does.
 void unshare_cells(const SharedCells& shared, std::uint64_t max_memory, StaticCells& cells);
 
 /// Lists as text, a line each: ids, with a * behind those who fill the cell.

@@ -6,6 +6,7 @@
 #include "gridcull/core/error.h"
 #include "gridcull/core/hash.h"
 #include "gridcull/grid/shared_cells.h"
+#include "gridcull/grid/static_tiles.h"
 
 namespace gridcull {
 namespace {
@@ -99,6 +100,39 @@ std::vector<StaticCells::Member> parse_members(std::string_view text) {
     members.push_back(member);
   }
   return members;
+}
+
+std::string tiles_text(std::span<const StaticTile> tiles, const StaticCells& cells) {
+  std::string text;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    if (tiles[i].members.empty()) continue;
+    text += std::to_string(i) + ' ' + std::to_string(tiles[i].covers) + ' ' + hexadecimal(tiles[i].hash);
+    for (const std::uint32_t member : tiles[i].members) text += ' ' + std::to_string(cells.members[member].id);
+    text += '\n';
+  }
+  return text;
+}
+
+std::vector<StaticTile> parse_tiles(std::string_view text, const StaticCells& cells, const TileLayout& layout) {
+  std::vector<StaticTile> tiles(layout.count());
+  for (std::uint64_t next = 0; !text.empty();) {
+    std::uint64_t number = 0;
+    if (!take_number(text, number) || number < next || number >= tiles.size()) refuse("numbers of tiles that ascend");
+    next = number + 1;
+    StaticTile& tile = tiles[number];
+    if (!take(text, ' ') || !take_number(text, tile.covers) || !take(text, ' ') || !take_number(text, tile.hash, 16)) {
+      refuse("a count and a hash for each tile");
+    }
+    while (take(text, ' ')) {
+      ObjectId id = no_id;
+      if (!take_number(text, id)) refuse("ids of a tile's objects");
+      const std::uint32_t member = member_of(id, cells);
+      if (!tile.members.empty() && tile.members.back() >= member) refuse("tiles whose ids ascend");
+      tile.members.push_back(member);
+    }
+    if (!take(text, '\n') || tile.members.empty()) refuse("ids of a tile's objects");
+  }
+  return tiles;
 }
 
 std::uint64_t cells_hash(const StaticCells& cells) {

@@ -15,6 +15,12 @@
 
 namespace gridcull {
 
+/// What a static object covers of one brick.
+struct MemberBrick {
+  std::uint32_t member;  ///< index into StaticCells::members
+  BrickCover cover;
+};
+
 struct StaticCells {
   /// The lattice they are cells of.
   int dimension = 2;

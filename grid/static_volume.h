@@ -3,18 +3,21 @@
 // `object` (int32: the number of the list of objects that share the cell, shared_cells.h). Lists, objects and what the
 // file is good for are its metadata.
 //
-// Only openvdb.cpp sees OpenVDB's headers. Without OpenVDB each function throws Error(usage).
+// Only openvdb_*.cpp see OpenVDB's headers. Without OpenVDB each function throws Error(usage).
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "gridcull/grid/static_cells.h"
+#include "gridcull/grid/static_tiles.h"
 
 namespace gridcull {
 
-/// Written beside, then renamed. Throws Error(io).
-void write_static_volume(const std::string& path, const StaticCells& cells);
+/// Written beside, then renamed. Tiles of 2^tile_shift cells an edge, 3 .. 20, may be read apart. Throws Error(io).
+void write_static_volume(const std::string& path, const StaticCells& cells,
+                         int tile_shift = TileLayout::default_shift);
 
 /// The lattice and the world that a file is for, without objects and bricks. Throws Error(io) for a file that cannot be
 /// read, and Error(bad_scene) for one that is no volume file, cut short, or of another format or version.
@@ -23,5 +26,9 @@ StaticCells read_static_volume_head(const std::string& path);
 /// All of it. Throws besides Error(limit) for more than `max_memory` bytes of bricks, and Error(bad_scene) for a file
 /// that was altered.
 StaticCells read_static_volume(const std::string& path, std::uint64_t max_memory);
+
+/// The same, of which cells are read tile by tile; the file must stay as it is. Throws what read_static_volume_head()
+/// throws; what was altered is found when its tile is read.
+std::unique_ptr<TiledCells> open_static_volume_tiles(const std::string& path);
 
 }  // namespace gridcull

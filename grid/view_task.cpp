@@ -10,7 +10,8 @@
 // (b) Otherwise no cell on the segment is hidden; the rings or shells up to c were all visited, because each
 // of them has a cell of the segment that is not hidden; so c was visited and X is reported, if X was in I.
 // If X was hidden behind a temporal bounding volume, that volume touches c (solid) or its outline was met
-// on the way (hollow), so it was revealed and X's cover tested. Points outside the lattice: look_outside().
+// on the way (hollow), so it was revealed and X's cover tested. Points outside the lattice, and in tiles of static cells
+// that are not held (tile_stream.h): look_outside().
 #include "gridcull/grid/view_task.h"
 
 #include <algorithm>
@@ -103,6 +104,7 @@ void ViewTask::find_containers() {
     world.matrix.each_in_brick(brick, [&](const IdentifierMatrix::Entry& entry) {
       if (entry.touched & bit) pending_.push_back(entry.slot);
     });
+    if (world.tiles) world.tiles->each_unheld_at(viewer_, [&](Slot slot) { pending_.push_back(slot); });
   } else {
     for (const Slot slot : world.outside) {
       if (world.objects[slot].place == Place::active) pending_.push_back(slot);
@@ -159,6 +161,12 @@ void ViewTask::look(std::size_t brick, std::uint64_t bits) {
 
 void ViewTask::look_outside() {
   GridWorld& world = *world_;
+  if (world.tiles) {
+    world.tiles->each_unheld(*volume_, [&](Slot slot) {
+      ++answer_->work.object_tests;
+      consider(slot, world.objects[slot].pose);
+    });
+  }
   for (const Slot slot : world.outside) {
     const ObjectState& state = world.objects[slot];
     if (state.place == Place::active) {

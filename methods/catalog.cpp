@@ -27,8 +27,8 @@ TbvMode tbv_mode(const std::string& name) {
 
 std::unique_ptr<Culler> make_engine(const MethodOptions& o, Hiding hiding) {
   return std::make_unique<GridEngine>(GridOptions{o.dimension, o.bounds, o.cell, tbv_mode(o.tbv), o.threads,
-                                                  o.max_memory, hiding, o.resolution, o.bound, o.store,
-                                                  o.static_cells});
+                                                  o.max_memory, hiding, o.resolution, o.bound, o.store, o.static_cells,
+                                                  o.static_tiles, o.static_memory});
 }
 
 std::unique_ptr<Culler> make_voxel(const MethodOptions& o) { return make_engine(o, Hiding::voxel); }

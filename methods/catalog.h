@@ -15,6 +15,7 @@
 #include "gridcull/core/culler.h"
 #include "gridcull/grid/static_cells.h"
 #include "gridcull/grid/static_store.h"
+#include "gridcull/grid/static_tiles.h"
 #include "gridcull/methods/baking.h"
 
 namespace gridcull {
@@ -38,6 +39,8 @@ struct MethodOptions {
   BakeSettings bake{};                                 ///< for baking
   StoreKind store = StoreKind::dense;                  ///< `voxel`: where static objects' cells are kept
   std::shared_ptr<const StaticCells> static_cells{};   ///< `voxel`: cells that were discretised before
+  std::shared_ptr<TiledCells> static_tiles{};          ///< `voxel`: the same, read as viewers come near
+  std::uint64_t static_memory = 0;                     ///< bytes for cells of static_tiles
   double view_box = 0.0;  ///< five-d-tree: edge of the box about the viewpoint, metres, >= 0
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -63,6 +64,15 @@ std::string cell_source(const WorldOptions& options, const Scene& scene) {
   if (options.cell) return "--cell";
   const std::string name = options.scene == "-" ? "standard input" : options.scene;
   return name + (scene.cell ? ": /grid/cell" : ": the cell size derived from it");
+}
+
+void give_cells(const WorldOptions& options, const StaticVolume& volume, MethodOptions& method) {
+  if (options.static_memory) {
+    method.static_tiles = open_static_volume_tiles(volume.path);
+    method.static_memory = *options.static_memory;
+    return;
+  }
+  method.static_cells = std::make_shared<const StaticCells>(read_static_volume(volume.path, options.max_memory));
 }
 
 }  // namespace
@@ -135,6 +145,12 @@ void add_method_options(CLI::App& command, WorldOptions& options) {
            "where the cells of static objects are kept: an array as big as the grid, or OpenVDB's trees, as big as the "
            "world's surface (default openvdb for a scene with a static volume, else dense)")
       .type_name("KIND");
+  add_whole(
+      command, "--static-memory", options.static_memory,
+      {0, std::numeric_limits<std::uint64_t>::max(), "a whole number of bytes, 0 or more"},
+      "voxel, for a scene with a static volume: keep no more than this of its cells, those nearest to the viewers; "
+      "static objects whose cells are not kept hide nothing and are reported wherever they are in view")
+      .type_name("BYTES");
   add_whole(command, "--occluders", options.occluders, {1, 64, "1 .. 64"},
             "shadow-frusta: used at most for each frame and viewer, 1 .. 64 (default 8)");
   add_text(
@@ -160,6 +176,12 @@ PreparedWorld prepare_scene(const WorldOptions& options, Scene scene, bool alway
   check_options(options);
   const std::optional<double> cell = options.cell ? options.cell : scene.cell;
   auto volume = open_static_volume(scene, options.scene, cell);
+  if (options.static_memory && !volume) {
+    throw Error(ErrorCode::usage,
+                "--static-memory: expected a scene with a static_volume, as gridcull bake static "
+                "writes, found none in " +
+                    options.scene);
+  }
   const StoreKind store = store_of(options, volume.has_value());
   const Room room = store == StoreKind::dense ? Room::whole : Room::where_needed;
   std::optional<Survey> survey;
@@ -206,10 +228,8 @@ std::unique_ptr<Culler> make_culler(const WorldOptions& options, const PreparedW
   }
   if (!options.bounds.empty()) method.bound = parse_bounds(options.bounds);
   // Only `voxel` asks for cells: the others take the objects themselves.
-  if (world.volume && options.method == grid_engine_info(Hiding::voxel).name) {
-    method.static_cells =
-        std::make_shared<const StaticCells>(read_static_volume(world.volume->path, options.max_memory));
-  }
+  if (world.volume && options.method == grid_engine_info(Hiding::voxel).name)
+    give_cells(options, *world.volume, method);
   return make_method(options.method, method);
 }
 

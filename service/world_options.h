@@ -40,6 +40,7 @@ struct WorldOptions {
   std::string bounds{};  ///< a name of core/bound_kind.h; "": the method's default
   int occluders = MethodOptions{}.occluders;
   std::string store{};  ///< dense or openvdb; "": openvdb where the scene has a static volume, else dense
+  std::optional<std::uint64_t> static_memory{};  ///< bytes; none: all static cells are kept
   std::string criteria{MethodOptions{}.criteria};
   std::string unions{MethodOptions{}.unions};
   std::string overlap{MethodOptions{}.overlap};

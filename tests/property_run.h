@@ -43,7 +43,8 @@ class Truth {
 };
 
 /// Feeds fresh instances of `method` the script, one in push mode on one thread and one in pull mode on
-/// script.threads, and checks in every frame and view:
+/// script.threads (of `voxel` besides one that holds only a part of the static cells: no missed, order, ridden,
+/// container), and checks in every frame and view:
 ///   missed      every object that the reference sees is reported (3D: that it confirms)
 ///   differs     both instances answer the same, work counts and positions read included
 ///   order       ids ascend

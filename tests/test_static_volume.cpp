@@ -85,6 +85,31 @@ TEST_CASE("a volume file keeps everything") {
   }
 }
 
+TEST_CASE("a volume file's tiles are those of its cells") {
+  if (!has_openvdb()) return;
+  const Folder folder;
+  const std::string path = folder / "world.vdb";
+  for (const int dimension : {2, 3}) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      const StaticCells cells = cells_of(dimension, 4'400 + seed);
+      write_static_volume(path, cells, 3);
+      const auto from_file = open_static_volume_tiles(path), from_memory = tiled(cells, 3);
+      REQUIRE(from_file->tiles().size() == from_memory->tiles().size());
+      CHECK(from_file->head().world == cells.world);
+      std::vector<MemberBrick> a, b;
+      // Backwards, and twice: what was read once is still there.
+      for (std::size_t i = 2 * from_file->tiles().size(); i-- > 0;) {
+        const std::size_t tile = i % from_file->tiles().size();
+        from_file->read(tile, a);
+        from_memory->read(tile, b);
+        CHECK(a.size() == b.size());
+        CHECK(tile_hash(a) == from_file->tiles()[tile].hash);
+        CHECK(tile_hash(b) == from_file->tiles()[tile].hash);
+      }
+    }
+  }
+}
+
 TEST_CASE("files that are none, or not whole, are refused") {
   if (!has_openvdb()) return;
   const Folder folder;

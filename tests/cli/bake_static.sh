@@ -45,6 +45,18 @@ pvs "town without" plain.txt town/scene.json --frames town/frames.jsonl --method
 pvs "town with" stored.txt town/with.json --frames town/frames.jsonl --method voxel
 same "the town with and without" plain.txt stored.txt
 
+# A part of the cells only: nobody who is in sight is missed, and nobody out of view is told.
+good "check with a part of the cells" check city/with.json "${frames[@]}" --method voxel --every 6 --rays 64 \
+  --static-memory 20000
+pvs "none of the cells" none.txt city/with.json "${frames[@]}" --method voxel --static-memory 0
+pvs "all of the cells" all.txt city/with.json "${frames[@]}" --method voxel --static-memory 1000000000
+pvs "without tiles" stored.txt city/with.json "${frames[@]}" --method voxel
+same "all tiles" stored.txt all.txt
+cmp -s none.txt all.txt && fail "--static-memory 0 hides as much as all cells"
+refused "--static-memory without a volume" "expected a scene with a static_volume" run city/scene.json --method voxel \
+  --static-memory 1000
+refused "--static-memory of words" "a whole number of bytes" run city/with.json --static-memory much
+
 # Edits at run time: what moves, goes or comes back is discretised.
 cat >edits.jsonl <<'FRAMES'
 {"format": "gridcull.frames/1"}

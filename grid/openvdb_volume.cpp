@@ -1,9 +1,10 @@
-// Static worlds in OpenVDB: openvdb_store.h, static_volume.h. Only openvdb_field.cpp sees its headers besides (they
-// take a minute to compile).
+// Volume files of static worlds: static_volume.h.
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,71 +13,13 @@
 #include <unistd.h>
 
 #include "gridcull/core/error.h"
-#include "gridcull/grid/openvdb_store.h"
 #include "gridcull/grid/shared_cells.h"
+#include "gridcull/grid/static_tiles.h"
 #include "gridcull/grid/static_volume.h"
 #include "gridcull/grid/vdb_layout.h"
 
 namespace gridcull {
 namespace {
-
-using WordTree = openvdb::Int64Tree;
-using HeadTree = openvdb::Int32Tree;
-
-/// Reads without the tree's list of accessors: any number of threads may, each with its own.
-template <class Tree>
-using Reader = openvdb::tree::ValueAccessor<const Tree, false>;
-
-/// A voxel is a brick: its word of O_s, and the head of its list. Empty bricks are background.
-class OpenVdbStore final : public StaticStore {
- public:
-  explicit OpenVdbStore(const Lattice& lattice) : lattice_(lattice), words_(0), heads_(-1) {}
-
-  std::uint64_t opaque(std::size_t brick) const override {
-    return static_cast<std::uint64_t>(words_.getValue(place(brick)));
-  }
-  void add_opaque_row(std::size_t brick, std::span<std::uint64_t> out) const override {
-    Reader<WordTree> words(words_);
-    openvdb::Coord at = place(brick);
-    for (std::uint64_t& word : out) {
-      word |= static_cast<std::uint64_t>(words.getValue(at));
-      ++at.x();
-    }
-  }
-  std::uint32_t first(std::size_t brick) const override {
-    return static_cast<std::uint32_t>(heads_.getValue(place(brick)));
-  }
-  void set_opaque(std::size_t brick, std::uint64_t cells) override {
-    set(words_, place(brick), static_cast<std::int64_t>(cells));
-  }
-  void set_first(std::size_t brick, std::uint32_t entry) override {
-    set(heads_, place(brick), static_cast<std::int32_t>(entry));
-  }
-  std::uint64_t bytes() const override { return words_.memUsage() + heads_.memUsage(); }
-
- private:
-  openvdb::Coord place(std::size_t brick) const {
-    const Cell corner = lattice_.brick_corner(brick);
-    const int shift = lattice_.brick_shift();
-    return {static_cast<int>(corner.x >> shift), static_cast<int>(corner.y >> shift),
-            lattice_.dimension() == 2 ? 0 : static_cast<int>(corner.z >> shift)};
-  }
-  template <class Tree, class Value>
-  static void set(Tree& tree, const openvdb::Coord& at, Value value) {
-    if (value != tree.background()) return tree.setValueOn(at, value);
-    auto* leaf = tree.probeLeaf(at);
-    if (leaf == nullptr) return;
-    leaf->setValueOff(at, value);
-    // What nobody is in any longer goes back to a tile.
-    if (leaf->isEmpty()) tree.addTile(1, at, tree.background(), false);
-  }
-
-  const Lattice& lattice_;
-  WordTree words_;
-  HeadTree heads_;
-};
-
-// Volume files.
 
 constexpr const char* format = "gridcull.static/1";
 
@@ -85,7 +28,7 @@ namespace key {
 constexpr const char *format = "gridcull_format", *units = "gridcull_units", *dimension = "gridcull_dimension",
                      *cell = "gridcull_cell", *origin = "gridcull_origin", *cells = "gridcull_cells",
                      *world = "gridcull_world", *objects = "gridcull_objects", *lists = "gridcull_lists",
-                     *check = "gridcull_check";
+                     *check = "gridcull_check", *tile_shift = "gridcull_tile_shift", *tiles = "gridcull_tiles";
 }  // namespace key
 
 std::string hexadecimal(std::uint64_t value) {
@@ -123,7 +66,7 @@ typename Grid::Ptr make_grid(const char* name, const typename Grid::ValueType& b
   return grid;
 }
 
-openvdb::MetaMap metadata_of(const StaticCells& cells, const SharedCells& shared) {
+openvdb::MetaMap metadata_of(const StaticCells& cells, const SharedCells& shared, int tile_shift) {
   openvdb::MetaMap map;
   const auto text = [&](const char* name, const std::string& value) {
     map.insertMeta(name, openvdb::StringMetadata(value));
@@ -139,6 +82,8 @@ openvdb::MetaMap metadata_of(const StaticCells& cells, const SharedCells& shared
   text(key::objects, members_text(cells));
   text(key::lists, lists_text(shared, cells));
   text(key::check, hexadecimal(cells_hash(cells)));
+  map.insertMeta(key::tile_shift, openvdb::Int32Metadata(tile_shift));
+  text(key::tiles, tiles_text(make_tiles(cells, TileLayout(cells.cells, tile_shift)), cells));
   return map;
 }
 
@@ -195,23 +140,31 @@ StaticCells head_of(const openvdb::MetaMap& map) {
   return cells;
 }
 
-/// Collects the parts of a file's grid `object`, leaf by leaf; leaves are read as they are come to and given back.
+using Leaf = openvdb::Int32Tree::LeafNodeType;
+
+/// Collects the parts of a file's grid `object`, leaf by leaf.
 class PartReader {
  public:
-  PartReader(const Lattice& lattice, std::uint64_t max_memory, SharedCells& out)
+  PartReader(const Lattice& lattice, std::uint64_t max_memory, std::vector<SharedCells::Part>& out)
       : lattice_(lattice), max_memory_(max_memory), out_(out) {}
 
-  void read(openvdb::Int32Grid& grid) {
-    using Leaf = openvdb::Int32Tree::LeafNodeType;
-    std::vector<Leaf*> stolen;
-    grid.tree().stealNodes(stolen);
-    std::vector<std::unique_ptr<Leaf>> leaves(stolen.begin(), stolen.end());
-    for (auto& leaf : leaves) {
-      for (auto value = leaf->cbeginValueOn(); value; ++value) add(value.getCoord(), *value);
-      leaf.reset();
-      finish();
+  void add(const Leaf& leaf) {
+    for (auto value = leaf.cbeginValueOn(); value; ++value) add(value.getCoord(), *value);
+    finish();
+  }
+  /// Cells of one list, as corners of the box tell.
+  void add(const openvdb::CoordBBox& box, std::int32_t list) {
+    if (box.volume() / 64 > max_memory_ / sizeof(BrickCover)) check_brick_memory(box.volume() / 64, max_memory_);
+    const int edge = lattice_.brick_edge(), up = lattice_.dimension() == 3 ? edge : 1;
+    for (int z = box.min().z(); z <= box.max().z(); z += up) {
+      for (int y = box.min().y(); y <= box.max().y(); y += edge) {
+        for (int x = box.min().x(); x <= box.max().x(); x += edge) {
+          const openvdb::CoordBBox brick({x, y, z}, {x + edge - 1, y + edge - 1, z + up - 1});
+          for (auto at = brick.begin(); at; ++at) add(*at, list);
+          finish();
+        }
+      }
     }
-    for (auto tile = grid.tree().cbeginValueOn(); tile; ++tile) add_box(tile.getBoundingBox(), *tile);
   }
 
  private:
@@ -230,29 +183,29 @@ class PartReader {
     leaf_parts_.push_back({brick, static_cast<std::uint32_t>(list), bit});
   }
   void finish() {
-    check_brick_memory(out_.parts.size() + leaf_parts_.size(), max_memory_);
-    out_.parts.insert(out_.parts.end(), leaf_parts_.begin(), leaf_parts_.end());
+    check_brick_memory(out_.size() + leaf_parts_.size(), max_memory_);
+    out_.insert(out_.end(), leaf_parts_.begin(), leaf_parts_.end());
     leaf_parts_.clear();
-  }
-  void add_box(const openvdb::CoordBBox& box, std::int32_t list) {
-    if (box.volume() / 64 > max_memory_ / sizeof(BrickCover)) check_brick_memory(box.volume() / 64, max_memory_);
-    const int edge = lattice_.brick_edge(), up = lattice_.dimension() == 3 ? edge : 1;
-    for (int z = box.min().z(); z <= box.max().z(); z += up) {
-      for (int y = box.min().y(); y <= box.max().y(); y += edge) {
-        for (int x = box.min().x(); x <= box.max().x(); x += edge) {
-          const openvdb::CoordBBox brick({x, y, z}, {x + edge - 1, y + edge - 1, z + up - 1});
-          for (auto at = brick.begin(); at; ++at) add(*at, list);
-          finish();
-        }
-      }
-    }
   }
 
   const Lattice& lattice_;
   std::uint64_t max_memory_;
-  SharedCells& out_;
+  std::vector<SharedCells::Part>& out_;
   std::vector<SharedCells::Part> leaf_parts_;
 };
+
+/// Leaves are read as they are come to, and given back.
+void read_parts(openvdb::Int32Grid& grid, const Lattice& lattice, std::uint64_t max_memory, SharedCells& out) {
+  PartReader reader(lattice, max_memory, out.parts);
+  std::vector<Leaf*> stolen;
+  grid.tree().stealNodes(stolen);
+  std::vector<std::unique_ptr<Leaf>> leaves(stolen.begin(), stolen.end());
+  for (auto& leaf : leaves) {
+    reader.add(*leaf);
+    leaf.reset();
+  }
+  for (auto tile = grid.tree().cbeginValueOn(); tile; ++tile) reader.add(tile.getBoundingBox(), *tile);
+}
 
 /// Runs `use(file)` on an open file; what OpenVDB or the metadata say against it becomes one line about `path`.
 template <class Use>
@@ -273,14 +226,114 @@ auto with_file(const std::string& path, Use&& use) {
   }
 }
 
+struct ObjectGrid {
+  StaticCells head;  ///< with members
+  std::vector<std::vector<SharedCells::Owner>> lists;
+  openvdb::Int32Grid::Ptr grid;  ///< leaves come from the file when they are looked at
+  openvdb::MetaMap::Ptr metadata;
+};
+
+ObjectGrid read_objects(openvdb::io::File& file) {
+  ObjectGrid out;
+  out.metadata = file.getMetadata();
+  out.head = head_of(*out.metadata);
+  out.head.members = parse_members(value_of<std::string>(*out.metadata, key::objects));
+  out.lists = parse_lists(value_of<std::string>(*out.metadata, key::lists), out.head);
+  if (!file.hasGrid("object")) throw Error(ErrorCode::bad_scene, "expected a grid named object, found none");
+  out.grid = openvdb::gridPtrCast<openvdb::Int32Grid>(file.readGrid("object"));
+  if (!out.grid) throw Error(ErrorCode::bad_scene, "object: expected a grid of int32, found another type");
+  return out;
+}
+
+/// A volume file of which leaves are read when their tile is.
+class TiledFile final : public TiledCells {
+ public:
+  TiledFile(std::string path, ObjectGrid objects)
+      : path_(std::move(path)), objects_(std::move(objects)), lattice_(lattice_of(objects_.head)) {
+    const openvdb::MetaMap& metadata = *objects_.metadata;
+    const auto shift = value_of<std::int32_t>(metadata, key::tile_shift);
+    if (shift < 3 || shift > 20) throw Error(ErrorCode::bad_scene, "expected tiles of 2^3 .. 2^20 cells, found others");
+    layout_ = TileLayout(objects_.head.cells, shift);
+    tiles_ = parse_tiles(value_of<std::string>(metadata, key::tiles), objects_.head, layout_);
+    objects_.metadata.reset();
+    list_leaves();
+  }
+
+  const StaticCells& head() const override { return objects_.head; }
+  const TileLayout& layout() const override { return layout_; }
+  std::span<const StaticTile> tiles() const override { return tiles_; }
+  void read(std::size_t tile, std::vector<MemberBrick>& out) override try {
+    constexpr auto any = std::numeric_limits<std::uint64_t>::max();
+    parts_.clear();
+    PartReader reader(lattice_, any, parts_);
+    const auto by_tile = [](const Place& place, std::size_t wanted) { return place.tile < wanted; };
+    for (auto at = std::lower_bound(leaves_.begin(), leaves_.end(), tile, by_tile);
+         at != leaves_.end() && at->tile == tile; ++at) {
+      reader.add(Leaf(*at->leaf));  // a copy takes the values: what the tree holds stays in the file
+    }
+    const Cell low = layout_.low(tile), high = layout_.high(tile);
+    const auto coord = [](const Cell& c) {
+      return openvdb::Coord(static_cast<int>(c.x), static_cast<int>(c.y), static_cast<int>(c.z));
+    };
+    openvdb::CoordBBox box(coord(low), coord(high).offsetBy(-1));
+    for (const Block& block : blocks_) {
+      openvdb::CoordBBox common = block.box;
+      common.intersect(box);
+      if (!common.empty()) reader.add(common, block.list);
+    }
+    covers_of(parts_, objects_.lists, any, out);
+  } catch (const std::exception& fault) {
+    throw Error(ErrorCode::bad_scene, path_ + ": " + fault.what());
+  }
+  std::uint64_t bytes() const override {
+    std::uint64_t bytes = objects_.head.bytes() + objects_.grid->memUsage() + leaves_.capacity() * sizeof(Place);
+    for (const auto& list : objects_.lists) bytes += sizeof(list) + list.capacity() * sizeof(SharedCells::Owner);
+    return bytes;
+  }
+
+ private:
+  struct Place {
+    std::size_t tile;
+    const Leaf* leaf;
+  };
+  struct Block {  // of one list
+    openvdb::CoordBBox box;
+    std::int32_t list;
+  };
+
+  void list_leaves() {
+    const openvdb::Int32Tree& tree = objects_.grid->tree();
+    leaves_.reserve(tree.leafCount());
+    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
+      const openvdb::Coord at = leaf->origin();
+      const Cell corner{at.x(), at.y(), at.z()};
+      if (!lattice_.holds(corner)) throw Error(ErrorCode::bad_scene, "object: expected cells of the lattice");
+      leaves_.push_back({layout_.tile_of(corner), &*leaf});
+    }
+    std::stable_sort(leaves_.begin(), leaves_.end(), [](const Place& a, const Place& b) { return a.tile < b.tile; });
+    auto block = tree.cbeginValueOn();
+    block.setMaxDepth(openvdb::Int32Tree::ValueOnCIter::LEAF_DEPTH - 1);
+    for (; block; ++block) blocks_.push_back({block.getBoundingBox(), *block});
+  }
+
+  std::string path_;
+  ObjectGrid objects_;
+  Lattice lattice_;
+  TileLayout layout_;
+  std::vector<StaticTile> tiles_;
+  std::vector<Place> leaves_;  // tiles ascend
+  std::vector<Block> blocks_;
+  std::vector<SharedCells::Part> parts_;
+};
+
 }  // namespace
 
-void write_static_volume(const std::string& path, const StaticCells& cells) {
+void write_static_volume(const std::string& path, const StaticCells& cells, int tile_shift) {
   openvdb::initialize();
   const SharedCells shared = share_cells(cells);
   const std::string beside = path + "." + std::to_string(::getpid()) + ".part";
   try {
-    openvdb::io::File(beside).write(grids_of(cells, shared), metadata_of(cells, shared));
+    openvdb::io::File(beside).write(grids_of(cells, shared), metadata_of(cells, shared, tile_shift));
     std::filesystem::rename(beside, path);
   } catch (const std::exception&) {
     std::error_code none;
@@ -295,28 +348,22 @@ StaticCells read_static_volume_head(const std::string& path) {
 
 StaticCells read_static_volume(const std::string& path, std::uint64_t max_memory) {
   return with_file(path, [&](openvdb::io::File& file) {
-    const openvdb::MetaMap::Ptr metadata = file.getMetadata();
-    StaticCells cells = head_of(*metadata);
-    cells.members = parse_members(value_of<std::string>(*metadata, key::objects));
-    SharedCells shared;
-    shared.lists = parse_lists(value_of<std::string>(*metadata, key::lists), cells);
-    if (!file.hasGrid("object")) throw Error(ErrorCode::bad_scene, "expected a grid named object, found none");
-    const auto grid = openvdb::gridPtrCast<openvdb::Int32Grid>(file.readGrid("object"));
-    if (!grid) throw Error(ErrorCode::bad_scene, "object: expected a grid of int32, found another type");
-    PartReader(lattice_of(cells), max_memory, shared).read(*grid);
+    ObjectGrid objects = read_objects(file);
+    StaticCells cells = std::move(objects.head);
+    SharedCells shared{std::move(objects.lists), {}};
+    read_parts(*objects.grid, lattice_of(cells), max_memory, shared);
     unshare_cells(shared, max_memory, cells);
-    if (cells_hash(cells) != from_hexadecimal(value_of<std::string>(*metadata, key::check))) {
+    if (cells_hash(cells) != from_hexadecimal(value_of<std::string>(*objects.metadata, key::check))) {
       throw Error(ErrorCode::bad_scene, "cut short or altered: the cells are not those that were written");
     }
     return cells;
   });
 }
 
-bool has_openvdb() { return true; }
-
-std::unique_ptr<StaticStore> make_openvdb_store(const Lattice& lattice) {
-  openvdb::initialize();
-  return std::make_unique<OpenVdbStore>(lattice);
+std::unique_ptr<TiledCells> open_static_volume_tiles(const std::string& path) {
+  return with_file(path, [&](openvdb::io::File& file) -> std::unique_ptr<TiledCells> {
+    return std::make_unique<TiledFile>(path, read_objects(file));
+  });
 }
 
 }  // namespace gridcull

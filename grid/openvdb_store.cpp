@@ -1,0 +1,77 @@
+// Static worlds in OpenVDB's trees: openvdb_store.h.
+#include "gridcull/grid/openvdb_store.h"
+
+#include <cstdint>
+#include <memory>
+
+#include <openvdb/openvdb.h>
+
+namespace gridcull {
+namespace {
+
+using WordTree = openvdb::Int64Tree;
+using HeadTree = openvdb::Int32Tree;
+
+/// Reads without the tree's list of accessors: any number of threads may, each with its own.
+template <class Tree>
+using Reader = openvdb::tree::ValueAccessor<const Tree, false>;
+
+/// A voxel is a brick: its word of O_s, and the head of its list. Empty bricks are background.
+class OpenVdbStore final : public StaticStore {
+ public:
+  explicit OpenVdbStore(const Lattice& lattice) : lattice_(lattice), words_(0), heads_(-1) {}
+
+  std::uint64_t opaque(std::size_t brick) const override {
+    return static_cast<std::uint64_t>(words_.getValue(place(brick)));
+  }
+  void add_opaque_row(std::size_t brick, std::span<std::uint64_t> out) const override {
+    Reader<WordTree> words(words_);
+    openvdb::Coord at = place(brick);
+    for (std::uint64_t& word : out) {
+      word |= static_cast<std::uint64_t>(words.getValue(at));
+      ++at.x();
+    }
+  }
+  std::uint32_t first(std::size_t brick) const override {
+    return static_cast<std::uint32_t>(heads_.getValue(place(brick)));
+  }
+  void set_opaque(std::size_t brick, std::uint64_t cells) override {
+    set(words_, place(brick), static_cast<std::int64_t>(cells));
+  }
+  void set_first(std::size_t brick, std::uint32_t entry) override {
+    set(heads_, place(brick), static_cast<std::int32_t>(entry));
+  }
+  std::uint64_t bytes() const override { return words_.memUsage() + heads_.memUsage(); }
+
+ private:
+  openvdb::Coord place(std::size_t brick) const {
+    const Cell corner = lattice_.brick_corner(brick);
+    const int shift = lattice_.brick_shift();
+    return {static_cast<int>(corner.x >> shift), static_cast<int>(corner.y >> shift),
+            lattice_.dimension() == 2 ? 0 : static_cast<int>(corner.z >> shift)};
+  }
+  template <class Tree, class Value>
+  static void set(Tree& tree, const openvdb::Coord& at, Value value) {
+    if (value != tree.background()) return tree.setValueOn(at, value);
+    auto* leaf = tree.probeLeaf(at);
+    if (leaf == nullptr) return;
+    leaf->setValueOff(at, value);
+    // What nobody is in any longer goes back to a tile.
+    if (leaf->isEmpty()) tree.addTile(1, at, tree.background(), false);
+  }
+
+  const Lattice& lattice_;
+  WordTree words_;
+  HeadTree heads_;
+};
+
+}  // namespace
+
+bool has_openvdb() { return true; }
+
+std::unique_ptr<StaticStore> make_openvdb_store(const Lattice& lattice) {
+  openvdb::initialize();
+  return std::make_unique<OpenVdbStore>(lattice);
+}
+
+}  // namespace gridcull
