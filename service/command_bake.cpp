@@ -244,14 +244,17 @@ void add_bake_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<BakeOptions>();
   options->world.method.clear();
   options->world.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 256u));
-  CLI::App& command = *app.add_subcommand("bake", "Work in advance: for a method, into a file that --baked reads, or with `static` in front of the scene the cells of "
-      "what does not move, into a .vdb");
+  CLI::App& command = *app.add_subcommand("bake",
+                                          "Work in advance: for a method, into a file that --baked reads, or with "
+                                          "`static` in front of the scene the cells of "
+                                          "what does not move, into a .vdb");
   add_scene_options(command, options->world);
   command.add_option("MORE", options->more)->group("");
   add_text(command, "--method", options->world.method, "one that bakes", "one that bakes: " + bakers())
       .type_name("NAME");
   add_text(command, "--out", options->out, "a file name",
-           "file to write; Ctrl-C leaves FILE.part, from which the same command goes on")
+           "file to write; Ctrl-C leaves FILE.part, from which the same command goes on (a second one ends at once, "
+           "without)")
       .type_name("FILE");
   add_whole(command, "--threads", options->world.threads, {1, 256, "1 .. 256"},
             "1 .. 256 (default: all cores); the file does not depend on it");
