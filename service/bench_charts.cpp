@@ -12,7 +12,7 @@
 namespace gridcull {
 namespace {
 
-double median_us(const BenchRow& row) { return row.total.summary(row.total.frames() > 1 ? 1 : 0).median; }
+double median_us(const BenchRow& row) { return row.total.steady().median; }
 
 std::string method_text(const BenchRow& row) {
   std::string text(row.contender.method->info.name);

@@ -78,9 +78,7 @@ std::vector<std::string> identity(const BenchSceneResult& result, const BenchRow
 }
 
 std::vector<std::string> figures(const BenchRow& row) {
-  // Frame 0 builds everything: it is apart, unless there is no other.
-  const std::size_t first = row.total.frames() > 1 ? 1 : 0;
-  const TimeSamples::Summary total = row.total.summary(first);
+  const TimeSamples::Summary total = row.total.steady();
   const BenchVerdict& v = row.verdict;
   const bool judged = v.queries > 0;
   const BakeCost& bake = row.contender.bake;
@@ -92,8 +90,8 @@ std::vector<std::string> figures(const BenchRow& row) {
           number(total.median),
           number(total.max),
           number(total.median_all),
-          number(row.moves.summary(first).median),
-          number(row.query.summary(first).median),
+          number(row.moves.steady().median),
+          number(row.query.steady().median),
           number(row.total.empty() ? std::nan("") : row.total.least(0)),
           number(row.load_us),
           number(row.over_estimation()),
@@ -134,11 +132,10 @@ std::string table_row(const BenchRow& row) {
     std::snprintf(line, sizeof line, "  %-46s did not run: ", name.c_str());
     return line + row.refused + "\n";
   }
-  const std::size_t first = row.total.frames() > 1 ? 1 : 0;
-  const TimeSamples::Summary total = row.total.summary(first);
+  const TimeSamples::Summary total = row.total.steady();
   const double over = row.over_estimation();
   std::snprintf(line, sizeof line, "  %-46s %10s %10s %10s %8s %14s %9s\n", name.c_str(), time_text(total.min).c_str(),
-                time_text(total.median).c_str(), time_text(row.moves.summary(first).median).c_str(),
+                time_text(total.median).c_str(), time_text(row.moves.steady().median).c_str(),
                 std::isnan(over) ? "-" : number_text(over, 4).c_str(), misses_text(row).c_str(),
                 bytes_text(static_cast<double>(row.memory_bytes)).c_str());
   return line;

@@ -24,6 +24,8 @@ class TimeSamples {
     double median_all = 0.0;  ///< over all frames and repeats
   };
   Summary summary(std::size_t first) const;
+  /// Without the first frame, in which everything is built, unless there is no other.
+  Summary steady() const { return summary(frames() > 1 ? 1 : 0); }
   /// The least of one frame.
   double least(std::size_t frame) const { return least_.at(frame); }
 

@@ -109,7 +109,7 @@ LimitResult run_one(const LimitWorld& world, const Truth& truth, double value, c
       play(world, method, times, repeat == 0 ? &answers : nullptr);
       if (repeat == 0) judge(world, truth, answers, result);
     }
-    result.frame_us = times.summary(times.frames() > 1 ? 1 : 0).median;
+    result.frame_us = times.steady().median;
   } catch (const Error& error) {
     result.refused = error.what();
   }
