@@ -27,19 +27,24 @@ void feed(Culler& culler, const CourseFrame& frame);
 
 class Course {
  public:
-  /// At most `frames` frames. Outlived by the scene.
-  Course(const BenchScene& scene, std::uint64_t frames);
+  /// The scene's frames 0, `every`, 2 `every` ... (1 or more), at most `frames` of them; what happens between two is
+  /// told with the second, as by a simulator that asks more seldom. Outlived by the scene.
+  Course(const BenchScene& scene, std::uint64_t frames, std::uint64_t every = 1);
 
-  /// Reads on by one frame; false at the end. What a frame is made of is taken into `out`.
+  /// Reads on to the next of them; false at the end. `number` counts them, not the scene's frames.
   bool next(CourseFrame& out);
   /// The world as it stands after the last frame.
   const World& world() const { return world_; }
 
  private:
+  bool read();
+  /// Of one frame.
+  void tell(CourseFrame& out) const;
+
   std::unique_ptr<FrameSource> source_;
   World world_;
   Frame frame_{};
-  std::uint64_t next_ = 0, frames_;
+  std::uint64_t next_ = 0, frames_, every_;
 };
 
 }  // namespace gridcull

@@ -9,6 +9,7 @@
 
 #include "gridcull/core/error.h"
 #include "gridcull/core/hash.h"
+#include "gridcull/grid/engine.h"
 #include "gridcull/service/bench_course.h"
 #include "gridcull/service/interrupt.h"
 #include "gridcull/sim/stats.h"
@@ -18,7 +19,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t run_length = 10;         // frames in a row
 constexpr std::size_t most_moves = 1'000'000;  // kept for one run
 
 double microseconds(Clock::time_point from, Clock::time_point to) {
@@ -58,7 +58,12 @@ class Runner {
     if (!culler_ && !make()) return;
     for (const CourseFrame& frame : frames) {
       step(frame);
-      if (measure_memory && frame.number == 0) row_->memory_bytes = MemoryMark::now().growth_since(before);
+      if (measure_memory && frame.number == 0) {
+        row_->memory_bytes = MemoryMark::now().growth_since(before);
+        if (const auto* engine = dynamic_cast<const GridEngine*>(culler_.get())) {
+          row_->held_bytes = engine->memory().total();
+        }
+      }
       if (first_repeat) count(frame, referee);
       tick();
       stop_if_interrupted();
@@ -126,11 +131,12 @@ class Runner {
   bool stopped_ = false;
 };
 
-/// The next run of frames; empty at the end. Fewer where much moves.
-void read_run(Course& course, BenchReferee& referee, bool first_repeat, std::vector<CourseFrame>& out) {
+/// The next run of at most `most` frames; empty at the end. Fewer where much moves.
+void read_run(Course& course, BenchReferee& referee, bool first_repeat, std::size_t most,
+              std::vector<CourseFrame>& out) {
   out.clear();
   std::size_t moves = 0;
-  while (out.size() < run_length && moves < most_moves) {
+  while (out.size() < most && moves < most_moves) {
     CourseFrame frame;
     if (!course.next(frame)) return;
     stop_if_interrupted();
@@ -150,8 +156,8 @@ void finish(BenchRow& row) {
   }
 }
 
-std::uint64_t length_of(const BenchScene& scene, std::uint64_t most) {
-  Course course(scene, most);
+std::uint64_t length_of(const BenchScene& scene, const BenchSettings& settings) {
+  Course course(scene, settings.frames, settings.every);
   std::uint64_t frames = 0;
   for (CourseFrame frame; course.next(frame);) {
     ++frames;
@@ -184,13 +190,13 @@ double BenchRow::over_estimation() const {
 BenchSceneResult run_bench_scene(const BenchScene& scene, std::span<const Contender> contenders,
                                  const BenchSettings& settings, const std::function<void()>& tick) {
   BenchSceneResult result = describe(scene, contenders);
-  BenchReferee referee(scene.scene.dimension, settings.judged, length_of(scene, settings.frames), settings.rays);
+  BenchReferee referee(scene.scene.dimension, settings.judged, length_of(scene, settings), settings.rays);
   std::vector<Runner> runners;
   for (BenchRow& row : result.rows) runners.emplace_back(scene, row);
   std::vector<CourseFrame> frames;
   for (int repeat = 0; repeat < settings.repeats; ++repeat) {
-    Course course(scene, settings.frames);
-    for (std::size_t turn = 0; read_run(course, referee, repeat == 0, frames), !frames.empty(); ++turn) {
+    Course course(scene, settings.frames, settings.every);
+    for (std::size_t turn = 0; read_run(course, referee, repeat == 0, settings.run, frames), !frames.empty(); ++turn) {
       // Each run begins with another contender: nobody always comes first.
       for (std::size_t i = 0; i < runners.size(); ++i) {
         Runner& runner = runners[(i + turn) % runners.size()];

@@ -22,6 +22,8 @@ struct BenchSettings {
   std::uint64_t judged = 3;  ///< frames held against the exact sets
   int rays = 256;            ///< 3D: along a frustum's height or a cube face's edge
   double seconds = 20.0;     ///< a contender that has used more on a scene ends its repeats early
+  std::uint64_t every = 1;   ///< only the scene's frames 0, every, 2 every ... (Course)
+  std::size_t run = 10;      ///< frames in a row, after which it is the next one's turn
 };
 
 /// One contender's result on one scene. Work counts are means per query, of the first repeat.
@@ -36,6 +38,7 @@ struct BenchRow {
   double load_us = 0.0;  ///< making the method and adding the scene's objects, least over repeats
   BenchVerdict verdict{};
   std::uint64_t memory_bytes = 0;  ///< growth while it was made and given its first frame
+  std::uint64_t held_bytes = 0;    ///< what the grid engine says that it holds then; 0 of other methods
   double pvs_mean = 0.0, positions_read_mean = 0.0;
   double cells_visited = 0.0, object_tests = 0.0, occluders = 0.0, rasters = 0.0;
   std::vector<double> reported{};  ///< objects, over all viewers, frame by frame

@@ -147,7 +147,7 @@ BenchSceneName parse_bench_scene(const std::string& text) {
 
 std::unique_ptr<FrameSource> BenchScene::frames() const {
   if (name.kind.empty()) {
-    if (name.frames_path.empty()) return nullptr;
+    if (name.frames_path.empty()) return still == 0 ? nullptr : std::make_unique<StillFrames>(still);
     return std::make_unique<FrameReader>(name.frames_path, scene.dimension, &stop_if_interrupted);
   }
   auto made = make_generator(name.kind, name.options);

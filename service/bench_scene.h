@@ -38,6 +38,7 @@ struct BenchScene {
   Scene scene{};
   LatticeChoice choice{};
   double default_cell = 1.0;  ///< metres
+  std::uint64_t still = 0;    ///< a scene file without frames: asked so often as it stands; 0: once
 
   /// From frame 0 on. Throws what readers throw.
   std::unique_ptr<FrameSource> frames() const;

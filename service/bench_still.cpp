@@ -21,4 +21,11 @@ bool FewMovers::next(Frame& out) {
   return true;
 }
 
+bool StillFrames::next(Frame& out) {
+  if (next_ == frames_) return false;
+  out = Frame{};
+  out.time = 0.1 * static_cast<double>(next_++);
+  return true;
+}
+
 }  // namespace gridcull

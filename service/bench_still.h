@@ -1,3 +1,5 @@
+// Worlds that stand still, in part or as a whole.
+//
 // Walkthroughs of mostly static worlds (Batagelo and Wu 2002, section 6, second test): of a made scene only the first
 // few objects move.
 #pragma once
@@ -22,6 +24,17 @@ class FewMovers final : public FrameSource {
  private:
   std::unique_ptr<FrameSource> all_;
   std::uint32_t moving_;
+};
+
+/// So many frames a tenth of a second apart in which nothing happens: what a scene without frames costs once it is
+/// built.
+class StillFrames final : public FrameSource {
+ public:
+  explicit StillFrames(std::uint64_t frames) : frames_(frames) {}
+  bool next(Frame& out) override;
+
+ private:
+  std::uint64_t next_ = 0, frames_;
 };
 
 }  // namespace gridcull

@@ -16,6 +16,7 @@
 #include "gridcull/service/bench_sample.h"
 #include "gridcull/service/bench_scene.h"
 #include "gridcull/service/resolution.h"
+#include "sim_helpers.h"
 
 using namespace gridcull;
 
@@ -92,6 +93,64 @@ TEST_CASE("bench: hidden movers stay hidden inside their box") {
   CHECK(frames == 100);
 }
 
+TEST_CASE("bench: every other frame is told what happened in between") {
+  const test::TemporaryFolder folder;
+  const std::string scene = folder.with("scene.json",
+                                        R"({"format": "gridcull.scene/1", "dimension": 2, "objects": [
+        {"id": 1, "shape": {"type": "disc", "radius": 1}, "position": [0, 0]},
+        {"id": 2, "shape": {"type": "disc", "radius": 1}, "position": [5, 0]}], "viewers": [{"id": 7, "follows": 1}]})");
+  const std::string frames = folder.with("frames.jsonl", R"({"format": "gridcull.frames/1"}
+{"time": 0}
+{"time": 1, "remove": [2], "add": [{"id": 3, "shape": {"type": "disc", "radius": 1}, "position": [8, 8]}], "set": [{"id": 1, "position": [1, 0]}]}
+{"time": 2, "add": [{"id": 4, "shape": {"type": "disc", "radius": 1}, "position": [9, 9]}], "set": [{"id": 1, "position": [2, 0]}, {"id": 3, "position": [7, 8]}]}
+{"time": 3, "remove": [3], "add": [{"id": 2, "shape": {"type": "disc", "radius": 2}, "position": [3, 3]}, {"id": 5, "shape": {"type": "disc", "radius": 1}, "position": [4, 4]}]}
+{"time": 4, "remove": [5], "set": [{"id": 2, "position": [2, 2]}, {"id": 4, "position": [1, 9]}]}
+{"time": 5, "set": [{"id": 1, "position": [9, 0]}]}
+)");
+  const BenchScene opened = open_bench_scene(scene + "@" + frames);
+  Course course(opened, 10, 2);
+  CourseFrame frame;
+  REQUIRE(course.next(frame));
+  CHECK(frame.time == 0.0);
+  REQUIRE(course.next(frame));
+  CHECK(frame.number == 1);
+  CHECK(frame.time == 2.0);
+  CHECK(frame.removed == std::vector<ObjectId>{2});
+  REQUIRE(frame.added.size() == 2);  // 3, where it went since, and 4
+  CHECK(frame.added[0].pose.position == Vec3(7.0, 8.0, 0.0));
+  REQUIRE(frame.moved.size() == 1);
+  CHECK(frame.moved[0].second.position == Vec3(2.0, 0.0, 0.0));
+  REQUIRE(frame.views.size() == 1);
+  CHECK(frame.views[0].pose.position == Vec3(2.0, 0.0, 0.0));
+  REQUIRE(course.next(frame));
+  CHECK(frame.time == 4.0);
+  CHECK(frame.removed == std::vector<ObjectId>{3});
+  REQUIRE(frame.added.size() == 1);  // 2 is back; 5 came and went
+  CHECK(frame.added[0].id == 2);
+  CHECK(frame.added[0].pose.position == Vec3(2.0, 2.0, 0.0));
+  REQUIRE(frame.moved.size() == 1);
+  CHECK(frame.moved[0].first == 4);
+  CHECK_FALSE(course.next(frame));  // one frame is left, and two were asked for
+}
+
+TEST_CASE("bench: a scene without frames is asked as it stands") {
+  const test::TemporaryFolder folder;
+  BenchScene opened = open_bench_scene(folder.with(
+      "scene.json",
+      R"({"format": "gridcull.scene/1", "dimension": 2, "objects": [], "viewers": [{"id": 7, "position": [1, 2]}]})"));
+  for (const std::uint64_t still : {std::uint64_t{0}, std::uint64_t{4}}) {
+    opened.still = still;
+    Course course(opened, 10);
+    std::uint64_t frames = 0;
+    for (CourseFrame frame; course.next(frame); ++frames) {
+      CHECK(frame.time == 0.1 * static_cast<double>(frames));
+      CHECK(frame.views.size() == 1);
+      CHECK(frame.moved.empty());
+    }
+    CHECK(frames == (still == 0 ? 1 : 4));
+  }
+}
+
 TEST_CASE("bench: the least over repeats, then over frames") {
   TimeSamples samples;
   CHECK(samples.summary(0).median == 0.0);
@@ -105,6 +164,7 @@ TEST_CASE("bench: the least over repeats, then over frames") {
   CHECK(all.median_all == 305.0);
   CHECK(rest.median == 250.0);
   CHECK(rest.max == 400.0);
+  CHECK(samples.steady().median == rest.median);
   CHECK(samples.least(0) == 500.0);
   CHECK(samples.summary(9).median == 0.0);
 }
