@@ -7,11 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "gridcull/grid/cover.h"
-#include "gridcull/grid/cover_scratch.h"
 #include "gridcull/grid/engine.h"
+#include "gridcull/service/cell_less.h"
 #include "gridcull/service/commands.h"
-#include "gridcull/service/interrupt.h"
 #include "gridcull/service/table.h"
 #include "gridcull/service/text.h"
 #include "gridcull/service/world_options.h"
@@ -46,29 +44,17 @@ std::string frames_text(const WorldOptions& options, const Survey& survey) {
          counted(survey.removals, "removal");
 }
 
-/// Occluders that fuse nothing: they hide through no cell of this grid.
+/// Occluders that hide nothing from `voxel` on this grid.
 std::string cell_less(const PreparedWorld& world) {
-  std::map<ObjectId, std::string> names;
-  for (const SceneObject& object : world.scene.objects) names[object.object.id] = object.name;
-  CoverScratch scratch;
-  Cover cover;
-  std::size_t without = 0;
-  std::string list;
-  for (const Object& object : world.survey->objects) {
-    if (!object.occluder) continue;
-    stop_if_interrupted();
-    PreparedShape(object.shape).cover(world.lattice, object.pose, scratch, cover);
-    bool holds = false;
-    for (const BrickCover& brick : cover.bricks) holds = holds || brick.opaque != 0;
-    if (holds) continue;
-    if (++without > listed) continue;
-    list += (list.empty() ? ": " : ", ") + std::to_string(object.id);
-    if (const auto found = names.find(object.id); found != names.end() && !found->second.empty()) {
-      list += " (" + found->second + ")";
-    }
+  const CellLess found = find_cell_less({&world.lattice, 1}, world.survey->objects);
+  const std::vector<ObjectId>& without = found.without[0];
+  std::string text = counted(without.size(), "occluder holds", "occluders hold") + " no whole cell";
+  if (!without.empty()) text += ": " + ids_text(without, world.scene, listed);
+  if (!found.thin.empty()) {
+    text += "; " + std::to_string(found.thin.size()) + " without an interior never " +
+            (found.thin.size() == 1 ? "does: " : "do: ") + ids_text(found.thin, world.scene, listed);
   }
-  if (without > listed) list += ", ...";
-  return counted(without, "occluder") + (without == 1 ? " holds" : " hold") + " no whole cell" + list;
+  return text;
 }
 
 std::string memory_text(const GridEngine& engine, std::size_t objects) {
