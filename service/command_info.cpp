@@ -2,14 +2,19 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "gridcull/grid/engine.h"
+#include "gridcull/service/advice_run.h"
+#include "gridcull/service/advice_text.h"
 #include "gridcull/service/cell_less.h"
 #include "gridcull/service/commands.h"
+#include "gridcull/service/option_values.h"
+#include "gridcull/service/progress.h"
 #include "gridcull/service/table.h"
 #include "gridcull/service/text.h"
 #include "gridcull/service/world_options.h"
@@ -19,6 +24,12 @@ namespace gridcull {
 namespace {
 
 constexpr std::size_t listed = 12;  // names printed of a longer list
+
+struct InfoOptions {
+  WorldOptions world{};
+  bool advise = false;
+  AdviceRequest advice{};
+};
 
 std::string contents(const std::vector<Object>& objects) {
   std::map<std::string, std::pair<std::size_t, std::size_t>> shapes;  // static, moving
@@ -103,8 +114,7 @@ std::string baked_text(const std::string& path, const Scene& scene, std::uint64_
   return row("baked", path + ", for " + head.method) + method.baking.describe(read_baked(path, head, max_memory));
 }
 
-int info(const WorldOptions& options) {
-  const PreparedWorld world = prepare_world(options, true);
+std::string info_text(const WorldOptions& options, const PreparedWorld& world) {
   const int dimension = world.scene.dimension;
   std::string text = row("scene", options.scene + ", " + std::to_string(dimension) + "D");
   text += row("frames", frames_text(options, *world.survey));
@@ -118,21 +128,51 @@ int info(const WorldOptions& options) {
   if (!reads_once(options.frames)) text += first_frame(options, world, Hiding::voxel);
   text += first_frame(options, world, Hiding::silhouette);
   if (!options.baked.empty()) text += baked_text(options.baked, world.scene, options.max_memory);
-  std::fputs(text.c_str(), stdout);
+  return text;
+}
+
+std::string measure(const AdvicePlan& plan, const PreparedWorld& world) {
+  std::uint64_t done = 0;
+  Progress progress("frames, all settings",
+                    plan.contenders.size() * plan.frames * static_cast<std::uint64_t>(plan.settings.repeats));
+  return advice_text(plan, world, run_advice(plan, world, [&] { progress.update(++done); }));
+}
+
+int info(const InfoOptions& options) {
+  const PreparedWorld world = prepare_world(options.world, true);
+  std::optional<AdvicePlan> plan;  // what cannot be measured is refused before anything is said
+  if (options.advise) plan = plan_advice(options.world, world, options.advice);
+  std::fputs(info_text(options.world, world).c_str(), stdout);
+  std::fflush(stdout);
+  if (plan) std::fputs(measure(*plan, world).c_str(), stdout);
   return 0;
+}
+
+void add_advice_options(CLI::App& command, InfoOptions& options) {
+  CLI::Option* const advise =
+      command.add_flag("--advise", options.advise,
+                       "measure a few cell sizes of voxel and mask resolutions of silhouette with the scene's own "
+                       "viewers, and say which to take and which occluders no cell catches");
+  add_whole(command, "--every", options.advice.every, {.low = 1, .expected = "a whole number, 1 or more"},
+            "--advise: measure frames 0, N, 2N ... (default: as many as make 40 at most)")
+      .needs(advise);
+  add_whole(command, "--threads", options.advice.threads, {1, 256, "1 .. 256"}, "--advise: 1 .. 256 (default 1)")
+      .needs(advise);
 }
 
 }  // namespace
 
 void add_info_command(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<WorldOptions>();
-  CLI::App& command = *app.add_subcommand("info", "What is in a scene, the grid it gets and why, and its memory");
-  add_scene_options(command, *options);
-  command.add_option("--baked", options->baked, "say also what this file of gridcull bake holds")->type_name("FILE");
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App& command = *app.add_subcommand("info", "What is in a scene, the grid it gets and why, its memory");
+  add_scene_options(command, options->world);
+  command.add_option("--baked", options->world.baked, "say also what this file of gridcull bake holds")
+      ->type_name("FILE");
+  add_advice_options(command, *options);
   command.footer(
-      "Example:\n"
-      "  gridcull make town --out town\n"
-      "  gridcull info town/scene.json --frames town/frames.jsonl");
+      "Example: a town, and which cell and method to take for it\n"
+      "  gridcull make town --out town --viewers 10 --range 100\n"
+      "  gridcull info town/scene.json --frames town/frames.jsonl --advise");
   command.callback([options, &action] { action = [options] { return info(*options); }; });
 }
 
