@@ -197,9 +197,11 @@ BenchSceneResult run_bench_scene(const BenchScene& scene, std::span<const Conten
   for (int repeat = 0; repeat < settings.repeats; ++repeat) {
     Course course(scene, settings.frames, settings.every);
     for (std::size_t turn = 0; read_run(course, referee, repeat == 0, settings.run, frames), !frames.empty(); ++turn) {
-      // Each run begins with another contender: nobody always comes first.
+      // Each run begins with another contender, and every other repeat goes backwards: nobody always comes first, or
+      // always behind the one who empties the caches.
       for (std::size_t i = 0; i < runners.size(); ++i) {
-        Runner& runner = runners[(i + turn) % runners.size()];
+        const std::size_t place = (i + turn) % runners.size();
+        Runner& runner = runners[repeat % 2 == 0 ? place : runners.size() - 1 - place];
         if (!runner.out()) runner.run(frames, referee, repeat == 0, settings.seconds, tick);
       }
     }
