@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,11 @@ struct Advice {
 /// `tick` after every frame of a setting. Throws Stopped on Ctrl-C.
 Advice run_advice(const AdvicePlan& plan, const PreparedWorld& world, const std::function<void()>& tick);
 
-/// Compares rows by the frames that all of them ran.
+/// The earlier row that is the same setting under another name, if any: `silhouette` by default chooses a resolution
+/// that may be listed too. Known by the same answers out of the same memory.
+std::optional<std::size_t> twin_of(const std::vector<BenchRow>& rows, std::size_t place);
+
+/// Compares rows by the frames that all of them ran. Of twins the earlier stands for both, with the lesser time.
 std::vector<SpeedAccuracy> compare_rows(const std::vector<BenchRow>& rows);
 
 }  // namespace gridcull

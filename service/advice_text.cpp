@@ -74,9 +74,12 @@ std::string ms_text(double microseconds) {
   return buffer;
 }
 
-std::string standing_text(const Advice& advice, const Standing& standing, const BenchRow& row, std::uint64_t frames) {
+std::string standing_text(const std::vector<BenchRow>& rows, std::size_t place, const Standing& standing,
+                          std::uint64_t frames) {
+  const BenchRow& row = rows[place];
   std::string text = row.verdict.misses > 0 ? "misses somebody" : "on the frontier";
-  if (standing.beaten_by) text = "beaten by " + label(advice.measured.rows[*standing.beaten_by].contender);
+  if (const auto twin = twin_of(rows, place)) text = "the same as " + label(rows[*twin].contender);
+  if (standing.beaten_by) text = "beaten by " + label(rows[*standing.beaten_by].contender);
   if (row.frames < frames) text += "; stopped after " + counted(row.frames, "frame");
   return text;
 }
@@ -105,8 +108,9 @@ std::string table(const AdvicePlan& plan, const Advice& advice) {
   const std::vector<Standing> standings = find_frontier(advice.settings);
   for (std::size_t i = 0; i < standings.size(); ++i) {
     const BenchRow& row = advice.measured.rows[i];
-    const std::string rest = row.refused.empty() ? figures(row) + standing_text(advice, standings[i], row, plan.frames)
-                                                 : "  refused: " + row.refused;
+    const std::string rest = row.refused.empty()
+                                 ? figures(row) + standing_text(advice.measured.rows, i, standings[i], plan.frames)
+                                 : "  refused: " + row.refused;
     text += line(std::string(row.contender.method->info.name), setting_text(row.contender), rest);
   }
   for (const RefusedSetting& setting : plan.refused) {
@@ -140,22 +144,21 @@ std::string caught_text(const AdvicePlan& plan, const PreparedWorld& world, cons
 }
 
 /// "silhouette, default (0.12 ms, over-estimation 1.01)"
-std::string with_figures(const BenchRow& row) {
-  return label(row.contender) + " (" + ms_text(row.total.steady().median) + " ms, " +
+std::string with_figures(const Advice& advice, std::size_t place) {
+  const BenchRow& row = advice.measured.rows[place];
+  return label(row.contender) + " (" + ms_text(advice.settings[place].time) + " ms, " +
          (std::isnan(row.over_estimation()) ? "PVS " + pvs_text(row) : "over-estimation " + over_text(row)) + ")";
 }
 
 std::string conclusion(const Advice& advice) {
   const std::optional<Picks> picks = pick(advice.settings);
   if (!picks) return "No setting ran without missing anybody: there is nothing to advise.\n";
-  const auto& rows = advice.measured.rows;
-  const BenchRow &fastest = rows[picks->fastest], &tightest = rows[picks->tightest], &standard = rows[picks->standard];
-  if (picks->fastest == picks->tightest) {
-    return "Fastest and tightest: " + with_figures(fastest) + ". Take it: " + command(fastest.contender) + "\n";
-  }
-  return "Fastest: " + with_figures(fastest) + "; tightest: " + with_figures(tightest) + ".\nBy default take " +
-         with_figures(standard) + ", the fastest within " + number_text(100.0 * looser) +
-         " % of the tightest: " + command(standard.contender) + "\n";
+  const std::string fastest = with_figures(advice, picks->fastest);
+  const std::string take = command(advice.measured.rows[picks->standard].contender) + "\n";
+  if (picks->fastest == picks->tightest) return "Fastest and tightest: " + fastest + ". Take it: " + take;
+  return "Fastest: " + fastest + "; tightest: " + with_figures(advice, picks->tightest) + ".\nBy default take " +
+         with_figures(advice, picks->standard) + ", the fastest within " + number_text(100.0 * looser) +
+         " % of the tightest: " + take;
 }
 
 }  // namespace

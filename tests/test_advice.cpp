@@ -1,9 +1,12 @@
 // The speed-accuracy frontier, and what is advised by it.
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "gridcull/service/advice.h"
+#include "gridcull/service/advice_run.h"
 
 using namespace gridcull;
 
@@ -71,6 +74,59 @@ TEST_CASE("frontier: what is a hair faster only is noise") {
   CHECK(frontier_of(chain) == Places{2});
   CHECK(find_frontier(chain)[0].beaten_by == 1u);
   CHECK(find_frontier(chain)[1].beaten_by == 2u);
+}
+
+namespace {
+
+BenchRow row_of(const std::string& setting, double microseconds, std::vector<double> reported) {
+  BenchRow row;
+  row.contender.setting_name = "resolution";
+  row.contender.setting = setting;
+  row.frames = reported.size();
+  row.reported = std::move(reported);
+  row.hash = 1;
+  row.total.add(0, 1e6);  // everything is built
+  row.total.add(1, microseconds);
+  return row;
+}
+
+}  // namespace
+
+TEST_CASE("rows are compared by the frames that all ran, and who misses or did not run is not") {
+  std::vector<BenchRow> rows{row_of("64", 10.0, {5.0, 5.0, 90.0}), row_of("128", 30.0, {4.0, 6.0}),
+                             row_of("256", 20.0, {1.0, 1.0, 1.0}), row_of("512", 5.0, {})};
+  rows[1].hash = 2;
+  rows[2].hash = 3;
+  rows[2].verdict.misses = 1;
+  rows[3].refused = "too large";
+  const auto settings = compare_rows(rows);
+  REQUIRE(settings.size() == 4);
+  CHECK(settings[0].time == 10.0);
+  CHECK(settings[0].reported == 10.0);
+  CHECK(settings[1].reported == 10.0);
+  CHECK(settings[0].usable);
+  CHECK(settings[1].usable);
+  CHECK_FALSE(settings[2].usable);
+  CHECK_FALSE(settings[3].usable);
+}
+
+TEST_CASE("one setting under two names stands once") {
+  std::vector<BenchRow> rows{row_of("auto", 12.0, {5.0}), row_of("128", 10.0, {5.0}), row_of("256", 14.0, {5.0})};
+  rows[2].held_bytes = 100;  // the same answers out of a larger mask
+  CHECK(twin_of(rows, 1) == 0u);
+  CHECK_FALSE(twin_of(rows, 0).has_value());
+  CHECK_FALSE(twin_of(rows, 2).has_value());
+  const auto settings = compare_rows(rows);
+  CHECK(settings[0].time == 10.0);
+  CHECK(settings[0].usable);
+  CHECK_FALSE(settings[1].usable);
+  CHECK(find_frontier(settings)[2].beaten_by == 0u);
+}
+
+TEST_CASE("cells about the derived one, and the one in use") {
+  CHECK(cells_about(2.0, 2.0) == std::vector<double>{8.0, 4.0, 2.0, 1.4, 1.0});
+  CHECK(cells_about(0.3, 2.5) == std::vector<double>{2.5, 1.2, 0.6, 0.3, 0.21, 0.15});  // as they are typed
+  CHECK(cells_about(1.0, 1.0 / 3.0)[5] == 1.0 / 3.0);
 }
 
 TEST_CASE("by default the fastest that is hardly looser than the tightest") {
