@@ -11,7 +11,7 @@ namespace gridcull {
 /// How one setting did.
 struct SpeedAccuracy {
   double time = 0.0;      ///< a frame, in any unit
-  double reported = 0.0;  ///< objects, by all settings to the same questions; fewer are tighter
+  double reported = 0.0;  ///< objects, in any unit; fewer are tighter
   bool usable = true;     ///< it ran and missed nobody
 };
 

@@ -112,6 +112,16 @@ void add_voxel(const PreparedWorld& world, const BenchChoice& choice, AdvicePlan
   }
 }
 
+/// What the row reports for one object that `longest` does, in the frames that both ran.
+double looseness(const BenchRow& row, const BenchRow& longest) {
+  double own = 0.0, others = 0.0;
+  for (std::size_t frame = 0; frame < row.reported.size(); ++frame) {
+    own += row.reported[frame];
+    others += longest.reported[frame];
+  }
+  return others > 0.0 ? own / others : 1.0 + own;  // nothing against nothing is 1, as equals are
+}
+
 }  // namespace
 
 std::vector<double> cells_about(double derived, double own) {
@@ -162,9 +172,9 @@ std::optional<std::size_t> twin_of(const std::vector<BenchRow>& rows, std::size_
 }
 
 std::vector<SpeedAccuracy> compare_rows(const std::vector<BenchRow>& rows) {
-  std::size_t common = std::numeric_limits<std::size_t>::max();
+  const BenchRow* longest = nullptr;
   for (const BenchRow& row : rows) {
-    if (row.refused.empty()) common = std::min(common, row.reported.size());
+    if (row.refused.empty() && (longest == nullptr || row.reported.size() > longest->reported.size())) longest = &row;
   }
   std::vector<SpeedAccuracy> out;
   for (const BenchRow& row : rows) {
@@ -172,7 +182,7 @@ std::vector<SpeedAccuracy> compare_rows(const std::vector<BenchRow>& rows) {
     one.usable = row.refused.empty() && row.verdict.misses == 0;
     if (!row.refused.empty()) continue;
     one.time = row.total.steady().median;
-    for (std::size_t frame = 0; frame < common; ++frame) one.reported += row.reported[frame];
+    one.reported = looseness(row, *longest);
     const std::optional<std::size_t> twin = twin_of(rows, out.size() - 1);
     if (!twin) continue;
     one.usable = false;

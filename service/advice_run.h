@@ -57,7 +57,8 @@ Advice run_advice(const AdvicePlan& plan, const PreparedWorld& world, const std:
 /// that may be listed too. Known by the same answers out of the same memory.
 std::optional<std::size_t> twin_of(const std::vector<BenchRow>& rows, std::size_t place);
 
-/// Compares rows by the frames that all of them ran. Of twins the earlier stands for both, with the lesser time.
+/// What rows report is compared with the row that ran most frames, each in the frames that it ran itself, so that one
+/// who was stopped early takes no frames from the others. Of twins the earlier stands for both, with the lesser time.
 std::vector<SpeedAccuracy> compare_rows(const std::vector<BenchRow>& rows);
 
 }  // namespace gridcull

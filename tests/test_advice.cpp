@@ -92,7 +92,7 @@ BenchRow row_of(const std::string& setting, double microseconds, std::vector<dou
 
 }  // namespace
 
-TEST_CASE("rows are compared by the frames that all ran, and who misses or did not run is not") {
+TEST_CASE("rows are compared by the frames that they ran, and who misses or did not run is not") {
   std::vector<BenchRow> rows{row_of("64", 10.0, {5.0, 5.0, 90.0}), row_of("128", 30.0, {4.0, 6.0}),
                              row_of("256", 20.0, {1.0, 1.0, 1.0}), row_of("512", 5.0, {})};
   rows[1].hash = 2;
@@ -102,12 +102,21 @@ TEST_CASE("rows are compared by the frames that all ran, and who misses or did n
   const auto settings = compare_rows(rows);
   REQUIRE(settings.size() == 4);
   CHECK(settings[0].time == 10.0);
-  CHECK(settings[0].reported == 10.0);
-  CHECK(settings[1].reported == 10.0);
+  CHECK(settings[0].reported == 1.0);
+  CHECK(settings[1].reported == 1.0);
+  CHECK(settings[2].reported == 0.03);
   CHECK(settings[0].usable);
   CHECK(settings[1].usable);
   CHECK_FALSE(settings[2].usable);
   CHECK_FALSE(settings[3].usable);
+}
+
+TEST_CASE("where nobody sees anything all are as tight") {
+  std::vector<BenchRow> rows{row_of("64", 10.0, {0.0, 0.0}), row_of("128", 30.0, {0.0}), row_of("256", 9.0, {1.0})};
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].hash = i;
+  const auto settings = compare_rows(rows);
+  CHECK(settings[0].reported == settings[1].reported);
+  CHECK(settings[2].reported > settings[0].reported);
 }
 
 TEST_CASE("one setting under two names stands once") {
