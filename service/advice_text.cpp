@@ -1,5 +1,6 @@
 #include "gridcull/service/advice_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
@@ -53,8 +54,15 @@ std::string judged_text(const AdvicePlan& plan) {
                : std::to_string(plan.settings.rays) + " rays along an edge: over-estimation is at most what is told");
 }
 
-std::string over_text(const BenchRow& row) {
-  if (std::isnan(row.over_estimation())) return "-";
+std::uint64_t judged_queries(const Advice& advice) {
+  std::uint64_t most = 0;
+  for (const BenchRow& row : advice.measured.rows) most = std::max(most, row.verdict.queries);
+  return most;
+}
+
+/// Not of a row that was stopped before all was judged: its frames are others.
+std::string over_text(const Advice& advice, const BenchRow& row) {
+  if (std::isnan(row.over_estimation()) || row.verdict.queries < judged_queries(advice)) return "-";
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%.3f", row.over_estimation());
   return buffer;
@@ -90,11 +98,11 @@ std::string line(const std::string& method, const std::string& setting, const st
   return buffer + rest + "\n";
 }
 
-std::string figures(const BenchRow& row) {
+std::string figures(const Advice& advice, const BenchRow& row) {
   const TimeSamples::Summary times = row.total.steady();
   char buffer[160];
   std::snprintf(buffer, sizeof buffer, "%9s %9s %9s %9s %7s %9s  ", ms_text(times.median).c_str(),
-                ms_text(times.median_all).c_str(), pvs_text(row).c_str(), over_text(row).c_str(),
+                ms_text(times.median_all).c_str(), pvs_text(row).c_str(), over_text(advice, row).c_str(),
                 row.verdict.queries == 0 ? "-" : std::to_string(row.verdict.misses).c_str(),
                 bytes_text(static_cast<double>(row.held_bytes)).c_str());
   return buffer;
@@ -108,9 +116,9 @@ std::string table(const AdvicePlan& plan, const Advice& advice) {
   const std::vector<Standing> standings = find_frontier(advice.settings);
   for (std::size_t i = 0; i < standings.size(); ++i) {
     const BenchRow& row = advice.measured.rows[i];
-    const std::string rest = row.refused.empty()
-                                 ? figures(row) + standing_text(advice.measured.rows, i, standings[i], plan.frames)
-                                 : "  refused: " + row.refused;
+    const std::string rest =
+        row.refused.empty() ? figures(advice, row) + standing_text(advice.measured.rows, i, standings[i], plan.frames)
+                            : "  refused: " + row.refused;
     text += line(std::string(row.contender.method->info.name), setting_text(row.contender), rest);
   }
   for (const RefusedSetting& setting : plan.refused) {
@@ -146,8 +154,9 @@ std::string caught_text(const AdvicePlan& plan, const PreparedWorld& world, cons
 /// "silhouette, default (0.12 ms, over-estimation 1.01)"
 std::string with_figures(const Advice& advice, std::size_t place) {
   const BenchRow& row = advice.measured.rows[place];
+  const std::string over = over_text(advice, row);
   return label(row.contender) + " (" + ms_text(advice.settings[place].time) + " ms, " +
-         (std::isnan(row.over_estimation()) ? "PVS " + pvs_text(row) : "over-estimation " + over_text(row)) + ")";
+         (over == "-" ? "PVS " + pvs_text(row) : "over-estimation " + over) + ")";
 }
 
 std::string conclusion(const Advice& advice) {
