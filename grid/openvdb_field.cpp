@@ -1,12 +1,11 @@
-// Fields of other programs, from .vdb files. Grids are not read through openvdb::io::File: that looks at no read's
-// success, and goes on with what stood in memory before where a file was cut short. Here the stream itself throws.
+// Fields of other programs, from .vdb files. A file cut short is found before OpenVDB reads it (vdb_layout.h). And
+// grids are not read through openvdb::io::File, which looks at no read's success: here the stream itself throws where
+// lengths inside a grid were altered.
 #include "gridcull/grid/openvdb_field.h"
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <memory>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -16,19 +15,13 @@
 #include <openvdb/openvdb.h>
 
 #include "gridcull/core/error.h"
+#include "gridcull/grid/vdb_layout.h"
 
 namespace gridcull {
 namespace {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why, ErrorCode code = ErrorCode::bad_scene) {
   throw Error(code, path + ": cannot be read as a volume: " + why);
-}
-
-void check_file(const std::string& path) {
-  std::error_code fault;
-  if (!std::filesystem::is_regular_file(path, fault) || !std::ifstream(path)) {
-    refuse(path, "expected a file", ErrorCode::io);
-  }
 }
 
 void check_memory(const std::string& path, std::uint64_t bytes, std::uint64_t max_memory) {
@@ -205,7 +198,7 @@ ScalarField field_of(const openvdb::FloatGrid& grid, const std::string& path, st
 }  // namespace
 
 ScalarField read_scalar_field(const std::string& path, const std::string& grid_name, std::uint64_t max_memory) {
-  check_file(path);
+  check_vdb_layout(path);
   openvdb::initialize();
   try {
     VdbFile file(path);

@@ -30,8 +30,12 @@ class Reader {
     need(bytes);
     go_to(at_ + bytes);
   }
-  /// A length and that many bytes.
-  void skip_text() { skip(number<std::uint32_t>()); }
+  /// A length and that many bytes; the length.
+  std::uint32_t skip_text() {
+    const auto length = number<std::uint32_t>();
+    skip(length);
+    return length;
+  }
   void go_to(std::uint64_t place) {
     at_ = place;
     in_.seekg(static_cast<std::streamoff>(place));
@@ -81,11 +85,14 @@ void check_metadata(Reader& reader) {
 
 /// A grid from its descriptor to its end. Its own metadata are checked too: they are lengths that OpenVDB believes.
 void check_grid(Reader& reader) {
-  for (int text = 0; text < 3; ++text) reader.skip_text();  // name, type, the grid whose tree it shares
+  reader.skip_text();  // name
+  reader.skip_text();  // type
+  const bool shares_tree = reader.skip_text() > 0;
   const auto begin = reader.number<std::int64_t>(), blocks = reader.number<std::int64_t>(),
              end = reader.number<std::int64_t>();
   const auto here = static_cast<std::int64_t>(reader.at()), size = static_cast<std::int64_t>(reader.size());
-  if (begin < here || blocks < begin || end < blocks || end > size) {
+  const bool in_order = shares_tree ? begin <= end : begin <= blocks && blocks <= end;
+  if (begin < here || !in_order || end > size) {
     reader.refuse("cut short: expected a grid up to byte " + std::to_string(end) + ", found " + std::to_string(size));
   }
   reader.go_to(static_cast<std::uint64_t>(begin));

@@ -76,7 +76,7 @@ std::string refusal(ErrorCode code, const std::string& path, const std::string& 
     CAPTURE(line);
     CHECK(fault.code() == code);
     CHECK(line.find('\n') == std::string::npos);
-    CHECK(line.starts_with(path + ": cannot be read as a volume: "));
+    CHECK(line.starts_with(path + ": "));
     return line;
   }
   FAIL("was read: " << path);
@@ -148,7 +148,7 @@ TEST_CASE("a grid by its name, half floats, shared trees and fog") {
 TEST_CASE("what is no good volume is refused in one line") {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.vdb");
-  CHECK(holds(refusal(ErrorCode::io, folder.file("none.vdb")), "expected a file"));
+  CHECK(holds(refusal(ErrorCode::io, folder.file("none.vdb")), "there is no such file"));
   CHECK(holds(refusal(ErrorCode::io, folder.file("")), "expected a file"));
   folder.with("a.vdb", "");
   refusal(ErrorCode::bad_scene, path);

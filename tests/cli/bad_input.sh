@@ -183,8 +183,8 @@ refused "a scene whose mesh is missing" "mesh.json: /objects/0/shape/file: " inf
 printf "$scene3" '{"type": "mesh", "file": "one.obj", "group": "roof"}' >mesh.json
 refused "a scene whose mesh lacks the group" "expected one of its groups .*found 'roof'" info mesh.json
 # The same lines where OpenVDB is not built in, but for what the file is.
-refused "no volume" "(missing.vdb: cannot be read as a volume: expected a file|OpenVDB)" import volume missing.vdb --inside-below 0 --out out/v
-refused "a volume of text" "(fcd.xml: cannot be read as a volume|OpenVDB)" import volume fcd.xml --inside-below 0 --out out/v
+refused "no volume" "(missing.vdb: there is no such file|OpenVDB)" import volume missing.vdb --inside-below 0 --out out/v
+refused "a volume of text" "(fcd.xml: cannot be read as a .vdb file|OpenVDB)" import volume fcd.xml --inside-below 0 --out out/v
 refused "a volume without a value" "found neither" import volume fcd.xml --out out/v
 refused "a volume of two values" "found both" import volume fcd.xml --inside-below 0 --inside-above 1 --out out/v
 refused "a volume's value in words" "--inside-below" import volume fcd.xml --inside-below sea --out out/v
