@@ -15,9 +15,11 @@ namespace {
 
 bool has_openvdb() { return false; }
 
+void check_openvdb_lattice(const Lattice&) { refuse(); }
+
 std::unique_ptr<StaticStore> make_openvdb_store(const Lattice&) { refuse(); }
 
-void write_static_volume(const std::string&, const StaticCells&, int) { refuse(); }
+void write_static_volume(const std::string&, const StaticCells&, std::uint64_t, int) { refuse(); }
 
 StaticCells read_static_volume_head(const std::string&) { refuse(); }
 

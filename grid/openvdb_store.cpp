@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <string>
 
 #include <openvdb/openvdb.h>
+
+#include "gridcull/core/error.h"
 
 namespace gridcull {
 namespace {
@@ -79,7 +83,15 @@ class OpenVdbStore final : public StaticStore {
 
 bool has_openvdb() { return true; }
 
+void check_openvdb_lattice(const Lattice& lattice) {
+  const Cell cells = lattice.cells();
+  const std::int64_t most = std::max({cells.x, cells.y, cells.z});
+  if (most <= std::numeric_limits<std::int32_t>::max()) return;
+  throw Error(ErrorCode::limit, "OpenVDB: expected at most 2^31 cells along an axis, found " + std::to_string(most));
+}
+
 std::unique_ptr<StaticStore> make_openvdb_store(const Lattice& lattice) {
+  check_openvdb_lattice(lattice);
   openvdb::initialize();
   return std::make_unique<OpenVdbStore>(lattice);
 }

@@ -11,7 +11,10 @@ namespace gridcull {
 /// Whether this gridcull was built with OpenVDB.
 bool has_openvdb();
 
-/// Throws Error(usage) without OpenVDB.
+/// Throws Error(limit) for a lattice of more cells along an axis than OpenVDB's coordinates count: 2^31.
+void check_openvdb_lattice(const Lattice& lattice);
+
+/// Throws as check_openvdb_lattice() does, and Error(usage) without OpenVDB.
 std::unique_ptr<StaticStore> make_openvdb_store(const Lattice& lattice);
 
 }  // namespace gridcull

@@ -13,6 +13,8 @@
 #include <unistd.h>
 
 #include "gridcull/core/error.h"
+#include "gridcull/grid/file_seal.h"
+#include "gridcull/grid/openvdb_store.h"
 #include "gridcull/grid/shared_cells.h"
 #include "gridcull/grid/static_tiles.h"
 #include "gridcull/grid/static_volume.h"
@@ -211,6 +213,7 @@ void read_parts(openvdb::Int32Grid& grid, const Lattice& lattice, std::uint64_t 
 template <class Use>
 auto with_file(const std::string& path, Use&& use) {
   check_vdb_layout(path);
+  check_seal(path);
   openvdb::initialize();
   try {
     openvdb::io::File file(path);
@@ -220,9 +223,9 @@ auto with_file(const std::string& path, Use&& use) {
   } catch (const Error& error) {
     throw Error(error.code(), path + ": " + error.what());
   } catch (const std::exception& error) {
-    std::string line = error.what();
-    for (char& c : line) c = c == '\n' ? ' ' : c;
-    throw Error(ErrorCode::bad_scene, path + ": cannot be read as a .vdb file: " + line.substr(0, 200));
+    std::string line = std::string(error.what()).substr(0, 200);
+    for (char& c : line) c = c >= ' ' && c <= '~' ? c : ' ';
+    throw Error(ErrorCode::bad_scene, path + ": cannot be read as a .vdb file: " + line);
   }
 }
 
@@ -328,12 +331,15 @@ class TiledFile final : public TiledCells {
 
 }  // namespace
 
-void write_static_volume(const std::string& path, const StaticCells& cells, int tile_shift) {
+void write_static_volume(const std::string& path, const StaticCells& cells, std::uint64_t max_memory, int tile_shift) {
   openvdb::initialize();
-  const SharedCells shared = share_cells(cells);
+  check_openvdb_lattice(lattice_of(cells));
+  const SharedCells shared = share_cells(cells, max_memory);
   const std::string beside = path + "." + std::to_string(::getpid()) + ".part";
   try {
     openvdb::io::File(beside).write(grids_of(cells, shared), metadata_of(cells, shared, tile_shift));
+    check_vdb_layout(beside);  // what a full disk cut short is noticed now and not when it is needed
+    seal_file(beside);
     std::filesystem::rename(beside, path);
   } catch (const std::exception&) {
     std::error_code none;

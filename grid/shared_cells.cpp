@@ -30,8 +30,12 @@ class ListTree {
     std::vector<SharedCells::Owner>& list = lists.emplace_back();
     for (std::uint32_t at = node; at != root; at = nodes_[at].parent) list.push_back(nodes_[at].owner);
     std::reverse(list.begin(), list.end());
+    owners_ += list.size() + 4;
     return numbers_[node];
   }
+
+  /// About what nodes and lists take.
+  std::uint64_t bytes() const { return nodes_.size() * (sizeof(Node) + 64) + owners_ * sizeof(SharedCells::Owner); }
 
  private:
   static constexpr std::uint32_t none = 0xFFFF'FFFFu;
@@ -41,6 +45,7 @@ class ListTree {
   };
   std::vector<Node> nodes_{{root, {0, false}}};
   std::vector<std::uint32_t> numbers_;
+  std::uint64_t owners_ = 0;
   std::unordered_map<std::uint64_t, std::uint32_t> children_;  // looked up, never walked
 };
 
@@ -86,7 +91,7 @@ bool SharedCells::opaque(std::uint32_t list) const {
   return std::any_of(lists[list].begin(), lists[list].end(), [](const Owner& owner) { return owner.fills; });
 }
 
-SharedCells share_cells(const StaticCells& cells) {
+SharedCells share_cells(const StaticCells& cells, std::uint64_t max_memory) {
   SharedCells out;
   ListTree tree;
   const std::vector<Place> places = by_brick(cells);
@@ -102,6 +107,8 @@ SharedCells share_cells(const StaticCells& cells) {
       part.list = tree.number(part.list, out.lists);
       out.parts.push_back(part);
     }
+    const std::uint64_t bytes = out.parts.size() * sizeof(SharedCells::Part) + tree.bytes();
+    if (bytes > max_memory) refuse_memory(max_memory);
   }
   return out;
 }

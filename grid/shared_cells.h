@@ -32,7 +32,8 @@ struct SharedCells {
   bool opaque(std::uint32_t list) const;
 };
 
-SharedCells share_cells(const StaticCells& cells);
+/// Throws Error(limit) for more than `max_memory` bytes.
+SharedCells share_cells(const StaticCells& cells, std::uint64_t max_memory);
 
 /// The parts by object, ascending by member and brick. Parts may come in any order. Throws Error(bad_scene) for numbers
 /// that are not there, Error(limit) for more than `max_memory` bytes.

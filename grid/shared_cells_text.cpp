@@ -106,7 +106,8 @@ std::string tiles_text(std::span<const StaticTile> tiles, const StaticCells& cel
   std::string text;
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     if (tiles[i].members.empty()) continue;
-    text += std::to_string(i) + ' ' + std::to_string(tiles[i].covers) + ' ' + hexadecimal(tiles[i].hash);
+    text += std::to_string(i) + ' ' + std::to_string(tiles[i].covers) + ' ' + std::to_string(tiles[i].blocks) + ' ' +
+            hexadecimal(tiles[i].hash);
     for (const std::uint32_t member : tiles[i].members) text += ' ' + std::to_string(cells.members[member].id);
     text += '\n';
   }
@@ -120,8 +121,9 @@ std::vector<StaticTile> parse_tiles(std::string_view text, const StaticCells& ce
     if (!take_number(text, number) || number < next || number >= tiles.size()) refuse("numbers of tiles that ascend");
     next = number + 1;
     StaticTile& tile = tiles[number];
-    if (!take(text, ' ') || !take_number(text, tile.covers) || !take(text, ' ') || !take_number(text, tile.hash, 16)) {
-      refuse("a count and a hash for each tile");
+    if (!take(text, ' ') || !take_number(text, tile.covers) || !take(text, ' ') || !take_number(text, tile.blocks) ||
+        !take(text, ' ') || !take_number(text, tile.hash, 16)) {
+      refuse("two counts and a hash for each tile");
     }
     while (take(text, ' ')) {
       ObjectId id = no_id;

@@ -38,7 +38,10 @@ Lattice lattice_of(const StaticCells& cells, std::uint64_t max_memory, Room room
 }
 
 void check_brick_memory(std::uint64_t bricks, std::uint64_t max_memory) {
-  if (bricks * sizeof(BrickCover) <= max_memory) return;
+  if (bricks * sizeof(BrickCover) > max_memory) refuse_memory(max_memory);
+}
+
+void refuse_memory(std::uint64_t max_memory) {
   throw Error(ErrorCode::limit, "the cells of static objects need more than the " + std::to_string(max_memory) +
                                     " bytes allowed (--max-memory); larger cells need fewer");
 }

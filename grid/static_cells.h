@@ -60,6 +60,8 @@ Lattice lattice_of(const StaticCells& cells, std::uint64_t max_memory, Room room
 std::optional<StaticCells> discretise_static(const Lattice& lattice, std::span<const Object> objects,
                                              std::uint64_t max_memory, const std::function<bool(double)>& progress);
 
+/// Throws Error(limit), which names the option.
+[[noreturn]] void refuse_memory(std::uint64_t max_memory);
 /// Throws Error(limit) when that many bricks need more than `max_memory` bytes.
 void check_brick_memory(std::uint64_t bricks, std::uint64_t max_memory);
 

@@ -1,6 +1,7 @@
 #include "gridcull/grid/static_tiles.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "gridcull/core/hash.h"
 
@@ -17,6 +18,14 @@ std::uint64_t cover_hash(const MemberBrick& at) {
     hash.add(static_cast<std::uint32_t>(word >> 32));
   }
   return hash.value();
+}
+
+/// The first brick of the 8 x 8 x 8 that the brick is in.
+std::size_t block_of(const Lattice& lattice, std::size_t brick) {
+  const Cell corner = lattice.brick_corner(brick);
+  const int shift = lattice.brick_shift();
+  const auto first = [&](std::int64_t cell) { return cell >> (shift + 3) << 3; };
+  return lattice.brick_index({first(corner.x), first(corner.y), lattice.dimension() == 2 ? 0 : first(corner.z)});
 }
 
 class CellsInMemory final : public TiledCells {
@@ -66,14 +75,19 @@ Cell TileLayout::high(std::size_t tile) const {
 std::vector<StaticTile> make_tiles(const StaticCells& cells, const TileLayout& layout) {
   const Lattice lattice = lattice_of(cells, 0, Room::where_needed);
   std::vector<StaticTile> tiles(layout.count());
+  std::vector<std::pair<std::size_t, std::size_t>> blocks;  // tile, and the block's first brick
   for (std::uint32_t m = 0; m < cells.members.size(); ++m) {
     for (const BrickCover& cover : cells.of(cells.members[m])) {
       StaticTile& tile = tiles[layout.tile_of(lattice.brick_corner(cover.brick))];
       if (tile.members.empty() || tile.members.back() != m) tile.members.push_back(m);
       ++tile.covers;
       tile.hash += cover_hash({m, cover});
+      blocks.push_back({layout.tile_of(lattice.brick_corner(cover.brick)), block_of(lattice, cover.brick)});
     }
   }
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  for (const auto& [tile, block] : blocks) ++tiles[tile].blocks;
   return tiles;
 }
 

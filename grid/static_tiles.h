@@ -41,7 +41,8 @@ class TileLayout {
 struct StaticTile {
   std::vector<std::uint32_t> members;  ///< who touches a cell of it, ascending: indices into StaticCells::members
   std::uint64_t covers = 0;            ///< bricks of all of them
-  std::uint64_t hash = 0;              ///< tile_hash() of them
+  std::uint64_t blocks = 0;  ///< of 8 x 8 x 8 bricks, in which somebody touches one: leaves of OpenVDB's trees
+  std::uint64_t hash = 0;    ///< tile_hash() of them
 };
 
 /// Of all tiles, in the order of the layout.
@@ -50,7 +51,7 @@ std::vector<StaticTile> make_tiles(const StaticCells& cells, const TileLayout& l
 /// The same in whatever order they come.
 std::uint64_t tile_hash(std::span<const MemberBrick> covers);
 
-/// A line for each tile that holds something: its number, covers, hash in hexadecimal digits, ids.
+/// A line for each tile that holds something: its number, covers, blocks, hash in hexadecimal digits, ids.
 std::string tiles_text(std::span<const StaticTile> tiles, const StaticCells& cells);
 /// Throws Error(bad_scene) for what tiles_text() would not write.
 std::vector<StaticTile> parse_tiles(std::string_view text, const StaticCells& cells, const TileLayout& layout);

@@ -15,8 +15,10 @@
 
 namespace gridcull {
 
-/// Written beside, then renamed. Tiles of 2^tile_shift cells an edge, 3 .. 20, may be read apart. Throws Error(io).
-void write_static_volume(const std::string& path, const StaticCells& cells,
+/// Written beside, held against a cut, sealed (file_seal.h), then renamed. Tiles of 2^tile_shift cells an edge, 3 ..
+/// 20, may be read apart. Throws Error(io), and Error(limit) for what needs more than `max_memory` bytes, or more than
+/// 2^31 cells along an axis.
+void write_static_volume(const std::string& path, const StaticCells& cells, std::uint64_t max_memory,
                          int tile_shift = TileLayout::default_shift);
 
 /// The lattice and the world that a file is for, without objects and bricks. Throws Error(io) for a file that cannot be

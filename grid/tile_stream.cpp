@@ -10,9 +10,6 @@
 namespace gridcull {
 namespace {
 
-/// An entry of I for each brick of each object, and the brick's words in the store.
-constexpr std::uint64_t bytes_a_cover = sizeof(IdentifierMatrix::Entry) + sizeof(std::uint64_t) + sizeof(std::uint32_t);
-
 /// In the greatest coordinate: a viewer's window is a box.
 double distance_to(const Vec3& low, const Vec3& high, const Vec3& point) {
   double distance = 0.0;
@@ -23,6 +20,12 @@ double distance_to(const Vec3& low, const Vec3& high, const Vec3& point) {
 }
 
 }  // namespace
+
+std::uint64_t tile_bytes(const StaticTile& tile) {
+  constexpr std::uint64_t bricks = 512, beside = 256;  // a leaf's, and what it takes besides
+  constexpr std::uint64_t block = bricks * (sizeof(std::uint64_t) + sizeof(std::uint32_t)) + beside;
+  return tile.covers * sizeof(IdentifierMatrix::Entry) + tile.blocks * block;
+}
 
 TileStream::TileStream(std::shared_ptr<TiledCells> cells, const Lattice& lattice, std::uint64_t max_bytes)
     : cells_(std::move(cells)), lattice_(lattice), max_bytes_(max_bytes) {
@@ -45,7 +48,7 @@ TileStream::TileStream(std::shared_ptr<TiledCells> cells, const Lattice& lattice
     if (lattice.dimension() == 2) tile.low.z = tile.high.z = 0.0;
     tile.centre = 0.5 * (tile.low + tile.high);
     tile.radius = 0.5 * glm::length(tile.high - tile.low) * (1.0 + 1e-12) + lattice.margin();
-    tile.bytes = tiles[i].covers * bytes_a_cover;
+    tile.bytes = tile_bytes(tiles[i]);
   }
   slots_.assign(cells_->head().members.size(), none);
   chosen_.assign(stretches_.size(), 0);
@@ -73,6 +76,12 @@ void TileStream::follow(std::span<const View> views, ObjectTable& objects, Ident
   for (std::size_t i = 0; i < stretches_.size(); ++i) {
     if (!stretches_[i].held && chosen_[i]) read(stretches_[i], objects, matrix);
   }
+}
+
+// Tiles are much wider than high: by its ball alone a tile beyond the range would be looked at.
+bool TileStream::reaches(const ViewVolume& volume, const Stretch& tile) {
+  return distance_to(tile.low, tile.high, volume.apex()) <= volume.range() &&
+         volume.may_touch_ball(tile.centre, tile.radius);
 }
 
 void TileStream::measure(std::span<const View> views) {

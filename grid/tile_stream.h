@@ -34,6 +34,9 @@ struct TileUse {
   std::uint64_t let_go = 0;     ///< tiles let go of
 };
 
+/// What a held tile takes: entries of I, words and heads of the store (OpenVDB's leaves, more than an array's part).
+std::uint64_t tile_bytes(const StaticTile& tile);
+
 class TileStream {
  public:
   /// `max_bytes`: of the cells held. The lattice must stay where it is. Throws Error(bad_scene) for tiles of another.
@@ -54,7 +57,7 @@ class TileStream {
   template <class F>
   void each_unheld(const ViewVolume& volume, F&& f) const {
     for (const Stretch& tile : stretches_) {
-      if (!tile.held && volume.may_touch_ball(tile.centre, tile.radius)) each_member(tile, f);
+      if (!tile.held && reaches(volume, tile)) each_member(tile, f);
     }
   }
   /// The same of the tile that a cell of the lattice is in.
@@ -84,6 +87,8 @@ class TileStream {
       if (slots_[member] != none) f(slots_[member]);
     }
   }
+  /// Whether the view volume may meet the tile: only then is it wanted, too.
+  static bool reaches(const ViewVolume& volume, const Stretch& tile);
   void measure(std::span<const View> views);
   /// The tiles to hold: into chosen_, of stretches_.
   void choose();

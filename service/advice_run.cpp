@@ -72,7 +72,7 @@ void look_ahead(AdvicePlan& plan) {
 
 /// The bounds that `--cell` would lead to.
 Bounds bounds_for(const PreparedWorld& world, double cell) {
-  if (world.volume) return world.choice.bounds;
+  if (world.volume && !world.scene.bounds) return world.lattice.box();
   return choose_lattice(world.scene.dimension, world.survey->objects, world.scene.bounds, cell, world.survey->extent)
       .bounds;
 }
@@ -141,6 +141,7 @@ AdvicePlan plan_advice(const WorldOptions& options, const PreparedWorld& world, 
   }
   AdvicePlan plan;
   plan.scene = scene_of(options, world);
+  plan.baked = world.volume.has_value();
   if (!options.frames.empty()) plan.file_frames = world.survey->frames;
   plan.settings = settings_of(plan, request);
   look_ahead(plan);

@@ -30,6 +30,7 @@ struct RefusedSetting {
 struct AdvicePlan {
   BenchScene scene{};
   BenchSettings settings{};
+  bool baked = false;                     ///< the scene names a static volume, which is for one cell
   std::uint64_t file_frames = 0;          ///< 0: there is no frames file, and the scene is asked as it stands
   std::uint64_t frames = 0, viewers = 0;  ///< measured; asked at once, at most
   std::vector<Contender> contenders{};    ///< `silhouette`, then `voxel` from the coarsest cell on

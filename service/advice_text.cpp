@@ -24,11 +24,12 @@ std::string label(const Contender& contender) {
 }
 
 /// What to type for it.
-std::string command(const Contender& contender) {
+std::string command(const Contender& contender, bool baked) {
   std::string text = "--method " + std::string(contender.method->info.name);
   if (contender.options.resolution > 0) text += " --resolution " + contender.setting;
   if (contender.setting_name == "cell" && !contender.is_default)
-    text += " --cell " + number_text(contender.options.cell);
+    text += " --cell " + number_text(contender.options.cell) +
+            (baked ? ", once gridcull bake static has made the static volume for that cell" : "");
   return text;
 }
 
@@ -159,11 +160,11 @@ std::string with_figures(const Advice& advice, std::size_t place) {
          (over == "-" ? "PVS " + pvs_text(row) : "over-estimation " + over) + ")";
 }
 
-std::string conclusion(const Advice& advice) {
+std::string conclusion(const AdvicePlan& plan, const Advice& advice) {
   const std::optional<Picks> picks = pick(advice.settings);
   if (!picks) return "No setting ran without missing anybody: there is nothing to advise.\n";
   const std::string fastest = with_figures(advice, picks->fastest);
-  const std::string take = command(advice.measured.rows[picks->standard].contender) + "\n";
+  const std::string take = command(advice.measured.rows[picks->standard].contender, plan.baked) + "\n";
   if (picks->fastest == picks->tightest) return "Fastest and tightest: " + fastest + ". Take it: " + take;
   return "Fastest: " + fastest + "; tightest: " + with_figures(advice, picks->tightest) + ".\nBy default take " +
          with_figures(advice, picks->standard) + ", the fastest within " + number_text(100.0 * looser) +
@@ -180,7 +181,7 @@ std::string advice_text(const AdvicePlan& plan, const PreparedWorld& world, cons
                               counted(static_cast<unsigned>(plan.contenders[0].options.threads), "thread"));
   text += row("judged", judged_text(plan));
   text += "\n" + table(plan, advice) + legend(plan) + "\n" + caught_text(plan, world, advice.cell_less) + "\n";
-  return text + conclusion(advice);
+  return text + conclusion(plan, advice);
 }
 
 }  // namespace gridcull

@@ -54,15 +54,7 @@ int bake_static(const WorldOptions& options, const std::string& out) {
   const auto start = std::chrono::steady_clock::now();
   const StaticCells cells = discretise(world, options.max_memory);
   if (cells.members.empty()) throw Error(ErrorCode::bad_scene, options.scene + ": expected static objects, found none");
-  write_static_volume(out, cells);
-  // What a full disk cut short is noticed now and not when it is needed.
-  try {
-    (void)read_static_volume(out, options.max_memory);
-  } catch (const Error& fault) {
-    std::error_code none;
-    std::filesystem::remove(out, none);
-    throw Error(ErrorCode::io, out + ": cannot be written whole");
-  }
+  write_static_volume(out, cells, options.max_memory);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::uint64_t opaque = 0, touched = 0;
   for (const BrickCover& brick : cells.bricks) {

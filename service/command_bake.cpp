@@ -254,7 +254,7 @@ void add_bake_command(CLI::App& app, Action& action) {
       .type_name("NAME");
   add_text(command, "--out", options->out, "a file name",
            "file to write; Ctrl-C leaves FILE.part, from which the same command goes on (a second one ends at once, "
-           "without)")
+           "without); bake static begins anew")
       .type_name("FILE");
   add_whole(command, "--threads", options->world.threads, {1, 256, "1 .. 256"},
             "1 .. 256 (default: all cores); the file does not depend on it");

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "gridcull/grid/engine.h"
+#include "gridcull/grid/static_volume.h"
 #include "gridcull/service/advice_run.h"
 #include "gridcull/service/advice_text.h"
 #include "gridcull/service/cell_less.h"
@@ -94,6 +95,10 @@ std::string first_frame(const WorldOptions& options, const PreparedWorld& world,
   grid.bounds = world.choice.bounds;
   grid.cell = world.choice.cell;
   grid.max_memory = options.max_memory;
+  grid.store = world.store;
+  if (world.volume && hiding == Hiding::voxel) {
+    grid.static_cells = std::make_shared<const StaticCells>(read_static_volume(world.volume->path, options.max_memory));
+  }
   GridEngine engine(grid);
   const auto frames = open_frames(options, world);
   Replay replay(engine, world.scene, frames.get());

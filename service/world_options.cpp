@@ -66,6 +66,19 @@ std::string cell_source(const WorldOptions& options, const Scene& scene) {
   return name + (scene.cell ? ": /grid/cell" : ": the cell size derived from it");
 }
 
+void check_static_memory(const WorldOptions& options, bool has_volume) {
+  if (!options.static_memory) return;
+  const std::string_view keeper = grid_engine_info(Hiding::voxel).name;
+  if (options.method != keeper) {
+    throw Error(ErrorCode::usage, "--static-memory: " + options.method + " keeps no cells of static objects (" +
+                                      std::string(keeper) + " does)");
+  }
+  if (has_volume) return;
+  throw Error(ErrorCode::usage,
+              "--static-memory: expected a scene with a static_volume, as gridcull bake static writes, " +
+                  ("found none in " + options.scene));
+}
+
 void give_cells(const WorldOptions& options, const StaticVolume& volume, MethodOptions& method) {
   if (options.static_memory) {
     method.static_tiles = open_static_volume_tiles(volume.path);
@@ -176,12 +189,7 @@ PreparedWorld prepare_scene(const WorldOptions& options, Scene scene, bool alway
   check_options(options);
   const std::optional<double> cell = options.cell ? options.cell : scene.cell;
   auto volume = open_static_volume(scene, options.scene, cell);
-  if (options.static_memory && !volume) {
-    throw Error(ErrorCode::usage,
-                "--static-memory: expected a scene with a static_volume, as gridcull bake static "
-                "writes, found none in " +
-                    options.scene);
-  }
+  check_static_memory(options, volume.has_value());
   const StoreKind store = store_of(options, volume.has_value());
   const Room room = store == StoreKind::dense ? Room::whole : Room::where_needed;
   std::optional<Survey> survey;

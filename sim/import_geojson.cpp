@@ -105,7 +105,10 @@ class Reader {
     out.height = positive_property(*properties, "height");
     if (!out.height) out.height = positive_property(*properties, "building:height");
     const auto levels = positive_property(*properties, "building:levels");
-    if (!out.height && levels) out.height = *levels * options_.level_height;
+    constexpr double greatest = 1e9;  // of a scene's coordinates
+    if (!out.height && levels && *levels * options_.level_height <= greatest) {
+      out.height = *levels * options_.level_height;
+    }
   }
   void read_polygon(const JsonRef& rings, Footprint like) {
     for (const JsonRef& ring : rings.items()) {
@@ -131,8 +134,8 @@ class Reader {
 /// One outline with the holes joined to the outer ring by bridges that are walked both ways: what lies inside by the
 /// even-odd rule stays the same, for a bridge's two sides cancel.
 Ring one_outline(const std::vector<Ring>& rings) {
+  if (rings.empty() || rings[0].empty()) return {};
   Ring out = rings[0];
-  if (out.empty()) return out;
   const Vec2 start = out.front();
   if (out.back() != start) out.push_back(start);
   for (std::size_t i = 1; i < rings.size(); ++i) {

@@ -7,10 +7,21 @@
 #include "gridcull/core/volume.h"
 
 namespace gridcull {
+namespace {
+
+std::uint64_t bytes_of(const std::vector<MeshGroup>& groups) {
+  std::uint64_t bytes = 0;
+  for (const MeshGroup& group : groups) {
+    bytes += group.faces.vertices.size() * sizeof(Vec3) + group.faces.triangles.size() * sizeof(std::uint32_t[3]);
+  }
+  return bytes;
+}
+
+}  // namespace
 
 MeshShelf::MeshShelf(const std::string& scene_path, std::uint64_t max_memory, FieldReader read_field)
     : folder_(scene_path == "-" ? "" : std::filesystem::path(scene_path).parent_path().string()),
-      max_memory_(max_memory),
+      left_(max_memory),
       read_field_(std::move(read_field)) {}
 
 Volume MeshShelf::take(const VolumeSource& source, double iso, bool inside_below) {
@@ -18,7 +29,8 @@ Volume MeshShelf::take(const VolumeSource& source, double iso, bool inside_below
   std::shared_ptr<const ScalarField>& field = fields_[{source.file, source.grid, source.scale}];
   if (!field) {
     const std::string path = (std::filesystem::path(folder_) / source.file).string();
-    field = std::make_shared<const ScalarField>(read_field_(path, source.grid, max_memory_).scaled(source.scale));
+    field = std::make_shared<const ScalarField>(read_field_(path, source.grid, left_).scaled(source.scale));
+    spend(ScalarField::memory_of(field->blocks().size(), field->tiles().size()));
   }
   Volume& volume = volumes_[{field.get(), iso, inside_below}];
   if (!volume.body) {
@@ -35,7 +47,8 @@ MeshGroup MeshShelf::take(const std::string& file, const std::string& group) {
   const auto [place, is_new] = files_.try_emplace(file);
   if (is_new) {
     try {
-      place->second = read_mesh((std::filesystem::path(folder_) / file).string(), max_memory_);
+      place->second = read_mesh((std::filesystem::path(folder_) / file).string(), left_);
+      spend(bytes_of(place->second));
     } catch (...) {
       files_.erase(place);
       throw;

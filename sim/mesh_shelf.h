@@ -1,6 +1,8 @@
 // The mesh and volume files that a scene names, each read once.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,6 +18,7 @@ namespace gridcull {
 class MeshShelf {
  public:
   /// Paths are relative to the folder of `scene_path` ("-": to the working folder).
+  /// `max_memory`: bytes of all files together.
   explicit MeshShelf(const std::string& scene_path, std::uint64_t max_memory = default_mesh_memory,
                      FieldReader read_field = {});
 
@@ -29,7 +32,9 @@ class MeshShelf {
 
  private:
   std::string folder_;
-  std::uint64_t max_memory_;
+  void spend(std::uint64_t bytes) { left_ -= std::min(left_, bytes); }
+
+  std::uint64_t left_;  ///< bytes that all files together may still take
   FieldReader read_field_;
   std::map<std::string, std::vector<MeshGroup>> files_{};
   std::map<std::tuple<std::string, std::string, double>, std::shared_ptr<const ScalarField>> fields_{};

@@ -10,6 +10,7 @@
 #include "gridcull/core/view_volume.h"
 #include "gridcull/grid/shared_cells.h"
 #include "gridcull/grid/static_tiles.h"
+#include "gridcull/grid/tile_stream.h"
 #include "gridcull/methods/frustum.h"
 
 namespace gridcull::test {
@@ -99,9 +100,9 @@ namespace {
 
 /// Of a world's static cells: none, a quarter, half or three quarters, for one world always the same.
 std::uint64_t some_of(const TiledCells& tiles, std::size_t choice) {
-  std::uint64_t covers = 0;
-  for (const StaticTile& tile : tiles.tiles()) covers += tile.covers;
-  return covers * 44 * (choice % 4) / 4;
+  std::uint64_t bytes = 0;
+  for (const StaticTile& tile : tiles.tiles()) bytes += tile_bytes(tile);
+  return bytes * (choice % 4) / 4;
 }
 
 /// The static objects' cells as a volume file gives them back.
@@ -110,7 +111,7 @@ std::shared_ptr<const StaticCells> stored_cells(const WorldScript& script) {
   const Lattice lattice(script.dimension, script.bounds, script.cell, plenty);
   auto cells =
       std::make_shared<StaticCells>(*discretise_static(lattice, script.objects, plenty, [](double) { return true; }));
-  const SharedCells shared = share_cells(*cells);
+  const SharedCells shared = share_cells(*cells, plenty);
   unshare_cells(shared, plenty, *cells);
   return cells;
 }

@@ -97,6 +97,18 @@ TEST_CASE("a hole stays a hole") {
 }
 
 // A degree of latitude at 52 degrees is 111,266 m, one of longitude 68,678 m (WGS 84).
+TEST_CASE("polygons of nothing are left out") {
+  for (const char* empty : {"[]", "[[]]", "[[[1, 2]]]"}) {
+    CAPTURE(empty);
+    const Imported out =
+        import(collection(feature("Polygon", empty) + "," + feature("MultiPolygon", "[" + std::string(empty) + "]") +
+                          "," + feature("Polygon", square, R"({"building:levels": 1e9})")),
+               {.height = 7.0, .metres = true});
+    REQUIRE(out.scene.objects.size() == 1);
+    CHECK(std::get<Prism>(out.scene.objects[0].object.shape).height == 7.0);
+  }
+}
+
 TEST_CASE("degrees become metres") {
   const Imported out =
       import(collection(feature("Polygon", "[[[10, 52], [10.001, 52], [10.001, 52.001], [10, 52.001], [10, 52]]]")),

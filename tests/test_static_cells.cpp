@@ -45,7 +45,7 @@ TEST_CASE("what is stored by place comes back by object, whole") {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
       const WorldScript script = random_world(dimension, 7'000 + seed);
       const StaticCells cells = cells_of(script);
-      const SharedCells shared = share_cells(cells);
+      const SharedCells shared = share_cells(cells, plenty);
       StaticCells back = cells;
       back.members = parse_members(members_text(cells));
       SharedCells read{parse_lists(lists_text(shared, cells), back), shared.parts};

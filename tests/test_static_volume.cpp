@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "gridcull/core/error.h"
+#include "gridcull/grid/file_seal.h"
 #include "gridcull/grid/openvdb_store.h"
 #include "gridcull/grid/shared_cells.h"
 #include "gridcull/grid/static_volume.h"
@@ -73,7 +74,7 @@ TEST_CASE("a volume file keeps everything") {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
       const StaticCells cells = cells_of(dimension, 4'400 + seed);
       const std::string path = folder / "world.vdb";
-      write_static_volume(path, cells);
+      write_static_volume(path, cells, plenty);
       const StaticCells back = read_static_volume(path, plenty), head = read_static_volume_head(path);
       CAPTURE(dimension);
       CAPTURE(seed);
@@ -92,7 +93,7 @@ TEST_CASE("a volume file's tiles are those of its cells") {
   for (const int dimension : {2, 3}) {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
       const StaticCells cells = cells_of(dimension, 4'400 + seed);
-      write_static_volume(path, cells, 3);
+      write_static_volume(path, cells, plenty, 3);
       const auto from_file = open_static_volume_tiles(path), from_memory = tiled(cells, 3);
       REQUIRE(from_file->tiles().size() == from_memory->tiles().size());
       CHECK(from_file->head().world == cells.world);
@@ -114,7 +115,7 @@ TEST_CASE("files that are none, or not whole, are refused") {
   if (!has_openvdb()) return;
   const Folder folder;
   const std::string path = folder / "world.vdb", bad = folder / "bad.vdb";
-  write_static_volume(path, cells_of(3, 4'401));
+  write_static_volume(path, cells_of(3, 4'401), plenty);
   const std::string whole = bytes_of(path);
   CHECK(refusal(folder / "none.vdb").find("no such file") != std::string::npos);
   CHECK(refusal(folder / "").find("expected a file") != std::string::npos);
@@ -128,6 +129,10 @@ TEST_CASE("files that are none, or not whole, are refused") {
     REQUIRE(at != std::string::npos);
     text.replace(at, from.size(), to);
     write_bytes(bad, text);
+    CHECK(refusal(bad).find("altered since it was written") != std::string::npos);
+    write_bytes(bad, text.substr(0, text.size() - 16));
+    CHECK(refusal(bad).find("expected a whole file that gridcull wrote") != std::string::npos);
+    seal_file(bad);
   };
   replaced("gridcull.static/1", "gridcull.static/2");
   CHECK(refusal(bad, true).find("expected format gridcull.static/1, found gridcull.static/2") != std::string::npos);
@@ -141,13 +146,42 @@ TEST_CASE("files that are none, or not whole, are refused") {
     CHECK(!refusal(bad).empty());
   }
   CHECK(cuts > 500);
+  // And wherever it was altered: OpenVDB would crash on some of these.
+  std::size_t altered = 0;
+  for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 700, ++altered) {
+    std::string text = whole;
+    text[at] = static_cast<char>(text[at] ^ (1 + at % 255));
+    write_bytes(bad, text);
+    CAPTURE(at);
+    CHECK(!refusal(bad, true).empty());
+    CHECK_THROWS_AS((void)open_static_volume_tiles(bad), Error);
+  }
+  CHECK(altered > 500);
+}
+
+TEST_CASE("a file that cannot be written leaves the one that was there") {
+  if (!has_openvdb()) return;
+  const Folder folder;
+  const std::string path = folder / "world.vdb";
+  const StaticCells cells = cells_of(3, 4'401);
+  write_static_volume(path, cells, plenty);
+  const std::string whole = bytes_of(path);
+  CHECK_THROWS_AS(write_static_volume(path, cells, 48), Error);
+  CHECK(bytes_of(path) == whole);
+  CHECK_THROWS_AS(write_static_volume(folder / "none/world.vdb", cells, plenty), Error);
+  StaticCells wide = cells;
+  wide.dimension = 2;
+  wide.cells = {std::int64_t{1} << 31, 1, 1};
+  wide.origin.z = 0;
+  CHECK_THROWS_AS(write_static_volume(path, wide, plenty), Error);
+  CHECK(bytes_of(path) == whole);
 }
 
 TEST_CASE("memory that is not allowed is not taken") {
   if (!has_openvdb()) return;
   const Folder folder;
   const std::string path = folder / "world.vdb";
-  write_static_volume(path, cells_of(3, 4'401));
+  write_static_volume(path, cells_of(3, 4'401), plenty);
   CHECK_THROWS_AS((void)read_static_volume(path, 48), Error);
 }
 

@@ -103,9 +103,10 @@ TEST_CASE("texts that are no tiles are refused") {
   const Street street(2);
   const StaticCells cells = cells_of(street.options, street.objects);
   const TileLayout layout(cells.cells, 4);
-  CHECK(parse_tiles("1 2 ff 0 1000\n3 1 0 1\n", cells, layout)[3].members.size() == 1);
-  for (const char* text : {"1", "1 2 ff\n", "1 2 ff 7\n", "1 2 ff 1 0\n", "1 2 ff 0", "3 1 0 1\n1 1 0 1\n",
-                           "1 1 0 1\n1 1 0 1\n", "99 1 0 1\n", "-1 1 0 1\n", "1 x 0 1\n", "\n"}) {
+  CHECK(parse_tiles("1 2 1 ff 0 1000\n3 1 1 0 1\n", cells, layout)[3].members.size() == 1);
+  for (const char* text :
+       {"1", "1 2 1 ff\n", "1 2 1 ff 7\n", "1 2 1 ff 1 0\n", "1 2 1 ff 0", "3 1 1 0 1\n1 1 1 0 1\n",
+        "1 1 1 0 1\n1 1 1 0 1\n", "99 1 1 0 1\n", "-1 1 1 0 1\n", "1 x 1 0 1\n", "1 1 x 0 1\n", "\n"}) {
     CAPTURE(text);
     CHECK_THROWS_AS((void)parse_tiles(text, cells, layout), Error);
   }
@@ -146,9 +147,9 @@ TEST_CASE("what is not held hides nothing and shows everything in view") {
 TEST_CASE("the nearest tiles are held, within the limit, and follow the viewer") {
   Street street(200);
   const auto all = street.tiles(4);
-  std::uint64_t covers = 0;
-  for (const StaticTile& tile : all->tiles()) covers += tile.covers;
-  const auto bytes = covers * 44 / 10;  // a tenth
+  std::uint64_t bytes = 0;
+  for (const StaticTile& tile : all->tiles()) bytes += tile_bytes(tile);
+  bytes /= 10;
   const auto engine = street.engine(all, bytes);
   GridEngine plain(street.options = [&] {
     GridOptions options = street.options;
@@ -177,6 +178,20 @@ TEST_CASE("the nearest tiles are held, within the limit, and follow the viewer")
   CHECK(answer(*old, 1, Street::view(500, 300)) == answer(*fresh, 1, Street::view(500, 300)));
 }
 
+// A ball about a tile reaches farther than the tile: who stands in the tile is told within the view's range only.
+TEST_CASE("an object in a tile beyond the range is not told for that") {
+  Street street;
+  street.objects = {make_static(0, Rectangle{{60, 4}}, {60, 32, 0}), make_static(1, Rectangle{{100, 2}}, {120, 40, 0})};
+  GridEngine plain(street.options);
+  for (const Object& object : street.objects) plain.add(object);
+  const auto engine = street.engine(street.tiles(4), everything);
+  double time = 0;
+  for (double x = 4; x < 160; x += 4, ++time) {
+    View view = Street::view(x, 45);
+    CHECK(answer(*engine, time, view) == answer(plain, time, view));
+  }
+}
+
 TEST_CASE("edits of what is in tiles: moved, removed, added again") {
   Street street;
   const auto engine = street.engine(street.tiles(), everything);
@@ -191,7 +206,7 @@ TEST_CASE("edits of what is in tiles: moved, removed, added again") {
   engine->add(street.objects[10]);
   CHECK(!sees(Answer{0, answer(*engine, 4, view), {}}, 1005));
   // Far away everything of it is let go of, what was edited stays.
-  const auto small = street.engine(street.tiles(), 44 * 60);
+  const auto small = street.engine(street.tiles(), 8 * 7000);
   (void)answer(*small, 0, view);
   small->remove(5);
   small->move(1004, {{95, 12, 0}});

@@ -55,6 +55,7 @@ same "all tiles" stored.txt all.txt
 cmp -s none.txt all.txt && fail "--static-memory 0 hides as much as all cells"
 refused "--static-memory without a volume" "expected a scene with a static_volume" run city/scene.json --method voxel \
   --static-memory 1000
+refused "--static-memory of silhouette" "silhouette keeps no cells" run city/with.json --static-memory 1000
 refused "--static-memory of words" "a whole number of bytes" run city/with.json --static-memory much
 
 # Edits at run time: what moves, goes or comes back is discretised.
@@ -100,6 +101,9 @@ refused "a setting of a method" "no option of bake static" bake static city/scen
 scene moving.json '{"id": 1, "shape": {"type": "disc", "radius": 1}, "position": [0, 0]}'
 refused "nothing static" "expected static objects, found none" bake static moving.json --out out/x.vdb
 refused "no room" "larger cells need fewer" bake static city/scene.json --max-memory 1000 --out out/x.vdb
+cp static.vdb kept.vdb
+refused "no room for lists" "larger cells need fewer" bake static city/scene.json --max-memory 30000 --out kept.vdb
+cmp -s static.vdb kept.vdb || fail "a bake that failed touched the file that was there"
 refused "no folder" "cannot be written" bake static city/scene.json --out none/x.vdb
 with city/scene.json none.vdb >city/bad.json
 refused "no such file" "city/none.vdb: there is no such file" run city/bad.json
@@ -111,6 +115,12 @@ with city/scene.json static.vdb '0,/"height": [0-9.]*/s//"height": 99/;0,/"stati
 refused "another building" "found those of others" run city/bad.json
 refused "another cell" "expected cells of 0.7 m, found cells of" run city/with.json --cell 0.7
 refused "--store" "--store: expected dense or openvdb, found" run city/with.json --store disk
+for place in 900 3000 5000; do
+  cp static.vdb city/cut.vdb
+  printf '\377' | dd of=city/cut.vdb bs=1 seek=$place conv=notrunc 2>/dev/null
+  with city/scene.json cut.vdb >city/bad.json
+  refused "altered at $place" "city/cut.vdb: " run city/bad.json --method voxel
+done
 head -c 3000 static.vdb >city/cut.vdb
 with city/scene.json cut.vdb >city/bad.json
 refused "cut short" "city/cut.vdb: " run city/bad.json --method voxel
