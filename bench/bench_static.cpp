@@ -39,7 +39,7 @@ std::vector<Object> town(int side) {
   return houses;
 }
 
-Bounds bounds_of(int side) { return {{0, 0, 0}, {pitch * side, pitch * side, 64}}; }
+Bounds bounds_of(int side) { return {{0, 0, -31.0 / 32.0}, {pitch * side, pitch * side, 63}}; }
 
 constexpr std::uint64_t plenty = std::uint64_t{16} << 30;
 

@@ -195,9 +195,10 @@ Imported import_geojson(const GeojsonOptions& options) {
     out.notes.push_back("(0, 0) is longitude " + std::to_string(plane.origin.x) + ", latitude " +
                         std::to_string(plane.origin.y));
   }
-  if (!box.empty()) {
+  // In 3D they are derived with the cell, so that opaque cells begin right above the ground.
+  if (!box.empty() && !options.height) {
     out.scene.bounds = Bounds{glm::floor(box.min), glm::max(glm::ceil(box.max), glm::floor(box.min) + 1.0)};
-    if (!options.height) out.scene.bounds->min.z = out.scene.bounds->max.z = 0.0;
+    out.scene.bounds->min.z = out.scene.bounds->max.z = 0.0;
   }
   return out;
 }

@@ -172,7 +172,10 @@ class Import {
     }
     return out;
   }
+  /// None where buildings stand on the ground, unless asked for: derived ones follow the cell, so that opaque cells
+  /// begin right above the ground (choose_lattice()); in others `voxel` would look through beneath the buildings.
   std::optional<Bounds> bounds(const Scene& scene) const {
+    if (options_.height && !options_.box) return std::nullopt;
     Bounds all = frames_.bounds(), fixed;
     for (const SceneObject& object : scene.objects) {
       for_each_world_point(object.object.shape, object.object.pose, [&](const Vec3& p) { fixed.add(p); });

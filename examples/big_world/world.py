@@ -61,7 +61,8 @@ def main():
     def write(name, low, high, volume=None):
         inside = [o for o in houses if all(low - 10 <= c <= high + 10 for c in o["position"][:2])]
         scene = {"format": "gridcull.scene/1", "dimension": 3,
-                 "bounds": {"min": [low, low, -1 / 1024], "max": [high, high, HEIGHT - 1 / 1024]},
+                 # Opaque cells begin a 32nd of a cell above the ground, clear of the houses' feet.
+                 "bounds": {"min": [low, low, -31 / 32 * arguments.cell], "max": [high, high, HEIGHT]},
                  "grid": {"cell": arguments.cell}, "objects": inside + moving, "viewers": viewers}
         if volume:
             scene["static_volume"] = {"file": volume}
