@@ -232,9 +232,10 @@ class Run {
       check_view(views[i], world, pushed_.views[i], pulled_.views[i], loose_.views[i]);
       if (truth != nullptr) tally_.visible += truth->views[i].visible.size();
       if (truth != nullptr && !fault_) check_reference(views[i], *truth, truth->views[i], pushed_.views[i].visible);
-      if (!streamed_ || fault_) continue;
-      check_rules(views[i], world, some_.views[i], loose_.views[i]);
-      if (truth != nullptr && !fault_) check_reference(views[i], *truth, truth->views[i], some_.views[i].visible);
+      if (streamed_ && !fault_) check_rules(views[i], world, some_.views[i], loose_.views[i]);
+      if (streamed_ && truth != nullptr && !fault_) {
+        check_reference(views[i], *truth, truth->views[i], some_.views[i].visible);
+      }
       ++tally_.views;
       tally_.answered += pushed_.views[i].visible.size();
       tally_.in_view += loose_.views[i].visible.size();

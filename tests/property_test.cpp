@@ -79,6 +79,8 @@ void run_campaign(const Campaign& campaign) {
     MESSAGE(c.method->info.name << " " << campaign.dimension << "D: " << t.views << " views, in view " << t.in_view
                                 << ", answered " << t.answered << ", visible " << t.visible << "; volumes revealed "
                                 << t.revealed << ", expired " << t.expired << ", jumps " << t.jumps);
+    CHECK(t.answered > 0);
+    CHECK(t.answered <= t.in_view);
     if (campaign.rays > 0) CHECK(t.visible > 0);
     jumps = std::max(jumps, t.jumps);
     best_share = std::max(best_share, 1.0 - static_cast<double>(t.answered) / static_cast<double>(t.in_view));
