@@ -215,6 +215,13 @@ TEST_CASE("edits of what is in tiles: moved, removed, added again") {
   CHECK(sees(Answer{0, back, {}}, 1005));
   CHECK(!sees(Answer{0, back, {}}, 5));
   CHECK(sees(Answer{0, back, {}}, 1004));
+  // A house that was moved does not come back with its tiles.
+  const auto half = street.engine(street.tiles(), 80 * 7000);
+  (void)answer(*half, 0, view);
+  half->move(5, {{390, 55, 0}});
+  (void)answer(*half, 1, Street::view(330, 200));
+  CHECK(half->tiles().let_go > 10);
+  CHECK(sees(Answer{0, answer(*half, 2, view), {}}, 1005));
 }
 
 /// Cells that cannot be read for a while, or are others than the directory says.
