@@ -44,7 +44,6 @@ constexpr double worth_slicing = 2.5;
 /// A mask is made of blocks of eight rows.
 int whole_blocks(int resolution) { return (resolution + 7) / 8 * 8; }
 
-
 /// Distances are rounded three or four times, each by at most 2^-52 of the coordinates that went in.
 constexpr double rounding = 0x1p-46;
 

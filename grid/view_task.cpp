@@ -10,8 +10,8 @@
 // (b) Otherwise no cell on the segment is hidden; the rings or shells up to c were all visited, because each
 // of them has a cell of the segment that is not hidden; so c was visited and X is reported, if X was in I.
 // If X was hidden behind a temporal bounding volume, that volume touches c (solid) or its outline was met
-// on the way (hollow), so it was revealed and X's cover tested. Points outside the lattice, and in tiles of static cells
-// that are not held (tile_stream.h): look_outside().
+// on the way (hollow), so it was revealed and X's cover tested. Points outside the lattice, and in tiles of static
+// cells that are not held (tile_stream.h): look_outside().
 #include "gridcull/grid/view_task.h"
 
 #include <algorithm>
