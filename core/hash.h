@@ -15,6 +15,11 @@ class StableHash {
       state_ *= 0x0000'0100'0000'01B3ull;
     }
   }
+  /// Low word first.
+  void add64(std::uint64_t value) {
+    add(static_cast<std::uint32_t>(value));
+    add(static_cast<std::uint32_t>(value >> 32));
+  }
   /// Viewer, number of ids, ids.
   void add(const Answer& answer) {
     add(answer.viewer);

@@ -14,10 +14,7 @@ namespace {
 struct WorldHash {
   StableHash hash;
 
-  void add(std::uint64_t value) {
-    hash.add(static_cast<std::uint32_t>(value));
-    hash.add(static_cast<std::uint32_t>(value >> 32));
-  }
+  void add(std::uint64_t value) { hash.add64(value); }
   /// -0 is 0.
   void add(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); }
   void add(const Vec2& v) { add(v.x), add(v.y); }

@@ -53,7 +53,4 @@ std::string members_text(const StaticCells& cells);
 /// Throws Error(bad_scene) for what members_text() would not write.
 std::vector<StaticCells::Member> parse_members(std::string_view text);
 
-/// Stable hash of all that is stored, for what was altered on the way.
-std::uint64_t cells_hash(const StaticCells& cells);
-
 }  // namespace gridcull

@@ -1,10 +1,9 @@
-// The texts beside a volume file's grids, and the hash of all of it.
+// The texts beside a volume file's grids.
 #include <algorithm>
 #include <charconv>
 #include <string>
 
 #include "gridcull/core/error.h"
-#include "gridcull/core/hash.h"
 #include "gridcull/grid/shared_cells.h"
 #include "gridcull/grid/static_tiles.h"
 
@@ -41,11 +40,6 @@ std::string hexadecimal(std::uint64_t value) {
   char digits[16];
   const auto end = std::to_chars(digits, digits + 16, value, 16).ptr;
   return {digits, end};
-}
-
-void add(StableHash& hash, std::uint64_t value) {
-  hash.add(static_cast<std::uint32_t>(value));
-  hash.add(static_cast<std::uint32_t>(value >> 32));
 }
 
 }  // namespace
@@ -135,23 +129,6 @@ std::vector<StaticTile> parse_tiles(std::string_view text, const StaticCells& ce
     if (!take(text, '\n') || tile.members.empty()) refuse("ids of a tile's objects");
   }
   return tiles;
-}
-
-std::uint64_t cells_hash(const StaticCells& cells) {
-  StableHash hash;
-  add(hash, cells.world);
-  for (const StaticCells::Member& member : cells.members) {
-    hash.add(member.id);
-    add(hash, member.hash);
-    hash.add(member.outside ? 1u : 0u);
-    add(hash, member.count);
-    for (const BrickCover& brick : cells.of(member)) {
-      hash.add(brick.brick);
-      add(hash, brick.touched);
-      add(hash, brick.opaque);
-    }
-  }
-  return hash.value();
 }
 
 }  // namespace gridcull

@@ -14,8 +14,7 @@ std::uint64_t cover_hash(const MemberBrick& at) {
   StableHash hash;
   for (const std::uint64_t word :
        {std::uint64_t{at.member} << 32 | at.cover.brick, at.cover.touched, at.cover.opaque}) {
-    hash.add(static_cast<std::uint32_t>(word));
-    hash.add(static_cast<std::uint32_t>(word >> 32));
+    hash.add64(word);
   }
   return hash.value();
 }

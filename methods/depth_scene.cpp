@@ -100,23 +100,11 @@ bool is_triangles(const FlatObject& flat) {
   return flat.local.kind == Kind::box || flat.local.kind == Kind::hull || flat.local.kind == Kind::faces;
 }
 
-/// A box's corners by bits +x +y +z, and its triangles.
+/// A box's corners by bits +x +y +z.
 Vec3 box_corner(const LocalShape& box, int bits) {
   return {(bits & 1) != 0 ? box.half.x : -box.half.x, (bits & 2) != 0 ? box.half.y : -box.half.y,
           (bits & 4) != 0 ? box.half.z : -box.half.z};
 }
-constexpr std::array<Triple, 12> box_triangles{{{0, 4, 6},
-                                                {0, 6, 2},
-                                                {1, 3, 7},
-                                                {1, 7, 5},
-                                                {0, 1, 5},
-                                                {0, 5, 4},
-                                                {2, 6, 7},
-                                                {2, 7, 3},
-                                                {0, 2, 3},
-                                                {0, 3, 1},
-                                                {4, 5, 7},
-                                                {4, 7, 6}}};
 
 std::span<const Triple> triangles_of(const LocalShape& shape) {
   if (shape.kind == LocalShape::Kind::box) return box_triangles;

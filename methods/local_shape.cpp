@@ -151,22 +151,9 @@ void set_volume(LocalShape& shape, const Volume& volume) {
     return;
   }
   shape.vertices.clear();
-  // Corners by bits: 1 = +x, 2 = +y, 4 = +z.
-  constexpr std::array<std::array<std::uint32_t, 3>, 12> triangles{{{0, 4, 6},
-                                                                    {0, 6, 2},
-                                                                    {1, 3, 7},
-                                                                    {1, 7, 5},
-                                                                    {0, 1, 5},
-                                                                    {0, 5, 4},
-                                                                    {2, 6, 7},
-                                                                    {2, 7, 3},
-                                                                    {0, 2, 3},
-                                                                    {0, 3, 1},
-                                                                    {4, 5, 7},
-                                                                    {4, 7, 6}}};
   for (const LatticeBox& box : volume.body->inner) {
     const auto base = static_cast<std::uint32_t>(shape.vertices.size());
-    for (const auto& t : triangles) shape.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+    for (const auto& t : box_triangles) shape.triangles.push_back({base + t[0], base + t[1], base + t[2]});
     for (const Vec3& p : inner_corners(volume, box)) shape.vertices.push_back(p);
   }
 }

@@ -33,6 +33,20 @@ struct LocalShape {
   std::vector<std::array<std::uint32_t, 3>> triangles{};  ///< hull, faces
 };
 
+/// A box's triangles; corners by bits: 1 = +x, 2 = +y, 4 = +z.
+inline constexpr std::array<std::array<std::uint32_t, 3>, 12> box_triangles{{{0, 4, 6},
+                                                                             {0, 6, 2},
+                                                                             {1, 3, 7},
+                                                                             {1, 7, 5},
+                                                                             {0, 1, 5},
+                                                                             {0, 5, 4},
+                                                                             {2, 6, 7},
+                                                                             {2, 7, 3},
+                                                                             {0, 2, 3},
+                                                                             {0, 3, 1},
+                                                                             {4, 5, 7},
+                                                                             {4, 7, 6}}};
+
 /// The shape is valid (core/shape.h). Throws what convex_hull() throws.
 LocalShape make_local_shape(const Shape& shape);
 
