@@ -9,9 +9,9 @@
 namespace gridcull {
 namespace {
 
-GridOptions grid_of(const Scene& scene, TbvMode tbv) {
+GridOptions grid_of(const Scene& scene, TbvMode tbv, Hiding hiding = Hiding::voxel) {
   GridOptions options;
-  options.hiding = Hiding::voxel;
+  options.hiding = hiding;
   options.dimension = scene.dimension;
   options.bounds = *scene.bounds;
   options.cell = *scene.cell;
@@ -20,11 +20,13 @@ GridOptions grid_of(const Scene& scene, TbvMode tbv) {
 }
 
 struct Sums {
-  double total = 0, discretise = 0, traverse = 0, read = 0, pvs = 0, visited = 0, tbv_tests = 0;
+  double total = 0, discretise = 0, traverse = 0, read = 0, pvs = 0, visited = 0, tbv_tests = 0, revealed = 0;
+  double worst = 0;  // the dearest frame, microseconds
   int frames = 0;
 
   void add(const Answers& a) {
     total += a.stats.total_us;
+    worst = std::max(worst, a.stats.total_us);
     discretise += a.stats.discretise_us;
     traverse += a.stats.traverse_us;
     read += static_cast<double>(a.stats.positions_read);
@@ -32,6 +34,7 @@ struct Sums {
       pvs += static_cast<double>(view.visible.size());
       visited += static_cast<double>(view.work.cells_visited);
       tbv_tests += static_cast<double>(view.work.tbv_tests);
+      revealed += static_cast<double>(view.work.tbv_revealed);
     }
     ++frames;
   }
@@ -44,6 +47,8 @@ struct Sums {
     state.counters["pvs"] = mean(pvs);
     state.counters["visited"] = mean(visited);
     state.counters["tbv_tests"] = mean(tbv_tests);
+    state.counters["revealed"] = mean(revealed);
+    state.counters["worst_us"] = worst;
   }
 };
 
@@ -78,12 +83,13 @@ BENCHMARK(spheres)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
-/// The same around a large box, with movers inside it (pull mode). Arguments: movers, cell in centimetres.
+/// The same around a large box, with movers inside it (pull mode). Arguments: movers, cell in centimetres, method (0:
+/// voxel, 1: silhouette).
 void hidden_movers(benchmark::State& state) {
   Sums sums;
   for (auto _ : state) {
     HiddenMovers world(5000, static_cast<std::uint32_t>(state.range(0)), static_cast<double>(state.range(1)) / 100.0);
-    GridEngine engine(grid_of(world.scene(), TbvMode::solid));
+    GridEngine engine(grid_of(world.scene(), TbvMode::solid, static_cast<Hiding>(state.range(2))));
     world.fill(engine);
     engine.set_source(&world);
     std::vector<View> views;
@@ -100,11 +106,8 @@ void hidden_movers(benchmark::State& state) {
   sums.report(state);
 }
 BENCHMARK(hidden_movers)
-    ->ArgNames({"movers", "cell_cm"})
-    ->Args({0, 200})
-    ->Args({100'000, 200})
-    ->Args({0, 100})
-    ->Args({100'000, 100})
+    ->ArgNames({"movers", "cell_cm", "method"})
+    ->ArgsProduct({{0, 100'000}, {200, 100}, {static_cast<int>(Hiding::voxel), static_cast<int>(Hiding::silhouette)}})
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 

@@ -26,6 +26,12 @@ enum class Guarantee {
   sampled        ///< may miss; its misses are counted and charted
 };
 
+/// An object and where it is from now on.
+struct Move {
+  ObjectId object = no_id;
+  Pose pose{};
+};
+
 /// Where a pull-mode simulator is asked for positions. An object is read at most once a frame. Calls come
 /// from one thread at a time, but not always the same one, and must not call the culler that asks.
 class PositionSource {
@@ -98,6 +104,12 @@ class Culler {
   /// Push: tells the object's pose from now on. Static objects may be moved too. A move beyond max_speed
   /// is accepted, handled as a jump and counted. Throws unknown_object.
   virtual void move(ObjectId object, const Pose& pose) = 0;
+  /// Push: the same for many, as if told one by one in this order. One that is refused refuses them all: throws what
+  /// move() throws for the first such, and none is told. (This default, for cullers that refuse nothing, tells one
+  /// after another; methods check first.)
+  virtual void move_all(std::span<const Move> moves) {
+    for (const Move& m : moves) move(m.object, m.pose);
+  }
 
   /// Pull: from now on poses of moving objects come from `source`, which outlives its use; hidden objects
   /// are looked at again. nullptr: back to push; then every moving object must be pushed once, since poses that

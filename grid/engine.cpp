@@ -60,6 +60,8 @@ void GridEngine::move(ObjectId object, const Pose& pose) {
   state_->move(slot, pose);
 }
 
+void GridEngine::move_all(std::span<const Move> moves) { state_->move_all(moves); }
+
 void GridEngine::set_source(PositionSource* source) {
   State& s = *state_;
   if (source == s.world.source) return;

@@ -80,6 +80,7 @@ class GridEngine final : public Culler {
   void add(const Object& object) override;
   void remove(ObjectId object) override;
   void move(ObjectId object, const Pose& pose) override;
+  void move_all(std::span<const Move> moves) override;
   void set_source(PositionSource* source) override;
   void announce_jump(ObjectId object) override;
   void query(double time, std::span<const View> views, Answers& out) override;

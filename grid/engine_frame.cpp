@@ -31,46 +31,6 @@ void GridEngine::State::check(double time, std::span<const View> views) const {
   for (const View& view : views) (void)ViewVolume(view, options.dimension);
 }
 
-// A hidden object that moved farther than its max_speed allows since the last frame may be anywhere: it is
-// discretised again. Pushed moves are judged here, since only now the frame's time is known; a pull source
-// announces them by the same rule. Of those who are in nobody's volume one compare says that none jumped; the quotients
-// of pushed_needs are right to 2^-50, far within the rule's 1e-9.
-void GridEngine::State::settle_jumps(double time) {
-  const double step = started ? time - before : std::numeric_limits<double>::infinity();
-  const auto judge = [&](const std::vector<Pushed>& list) {
-    for (const Pushed& p : list) {
-      ObjectState& state = world.objects[p.slot];
-      if (state.jumped || !jumped_since(p, step, time)) continue;
-      state.jumped = true;
-      jumped.push_back(p.slot);
-    }
-  };
-  if (!(pushed_needs <= step * step)) judge(pushed);
-  judge(pushed_hidden);
-  pushed_needs = 0.0;
-  pushed.clear();
-  pushed_hidden.clear();
-  for (const Slot slot : jumped) {
-    ObjectState& state = world.objects[slot];
-    state.jumped = false;
-    ++stats.jumps;
-    if (state.place == Place::hidden) activate(slot);
-  }
-  jumped.clear();
-}
-
-bool GridEngine::State::jumped_since(const Pushed& push, double step, double time) const {
-  const ObjectState& state = world.objects[push.slot];
-  const Vec3 way = state.pose.position - push.from;
-  const double most = state.max_speed * step;
-  // The rule compares lengths; squares, which need no root, settle all that are clearly shorter.
-  if (started && glm::dot(way, way) >= most * most && glm::length(way) > most * (1.0 + 1e-9)) return true;
-  // A volume past its term is renewed in expire(): leaving it is no jump (the pull rule has none there either).
-  if (state.place != Place::hidden || expiries.expiry(push.slot) < time) return false;
-  const TbvMatrix::Ball ball = volume(push.slot);
-  return glm::length(state.pose.position - ball.centre) + state.reach > ball.radius * (1.0 + 1e-12);
-}
-
 // Criterion 2 of the paper: hidden and expired, so a new term. All poses are read before any volume is given up:
 // if the source throws, the volumes go back to the queue and expire again in the next frame.
 void GridEngine::State::expire() {
@@ -112,47 +72,6 @@ void GridEngine::State::discretise() {
     follow_pushed();
   }
   stale.clear();
-}
-
-void GridEngine::State::read_active() {
-  for (const Slot slot : active) {
-    ObjectState& state = world.objects[slot];
-    const Pose old = state.pose;
-    world.read_alone(slot);
-    if (old.position != state.pose.position || old.orientation.w != state.pose.orientation.w ||
-        old.orientation.x != state.pose.orientation.x || old.orientation.y != state.pose.orientation.y ||
-        old.orientation.z != state.pose.orientation.z) {
-      state.stale = true;
-    }
-    if (state.stale) cover(slot);
-  }
-}
-
-// move() has written the poses and said who moved.
-void GridEngine::State::follow_pushed() {
-  for (const Slot slot : active) {
-    ObjectState& state = world.objects[slot];
-    world.note_read(state);
-    if (state.stale) cover(slot);
-  }
-}
-
-// The same, where move() has moved the balls of most already. All count as read; nobody was before: only
-// hidden objects are.
-void GridEngine::State::follow_stale() {
-  world.positions_read += active.size();
-  const LooseIndex& index = world.silhouettes->index;
-  const auto soon = [&](std::size_t i, std::size_t steps) {
-    return i + steps < stale.size() ? stale[i + steps] : none;
-  };
-  for (std::size_t i = 0; i < stale.size(); ++i) {
-    // Whoever leaves its node touches memory in five places, most of them cold in a crowd.
-    if (const Slot slot = soon(i, 3 * ahead / 2); slot != none) world.objects.prefetch(slot), index.prefetch(slot);
-    if (const Slot slot = soon(i, ahead); slot != none) index.prefetch_node(slot);
-    if (const Slot slot = soon(i, ahead / 2); slot != none) index.prefetch_row(slot);
-    const ObjectState& state = world.objects[stale[i]];
-    if (state.stale && state.place == Place::active) cover(stale[i]);
-  }
 }
 
 // A viewer that jumped may stand inside an outline without having crossed it: such outlines become solid.
@@ -212,7 +131,9 @@ void GridEngine::State::merge(std::size_t views) {
       ObjectState& state = world.objects[slot];
       if (state.place != Place::hidden) continue;  // another view revealed it too
       ++stats.tbv_revealed;
-      if (state.max_speed > 0.0) state.term = static_cast<float>(terms.shorter(state.term, state.max_speed));
+      if (const double speed = world.objects.max_speed(slot); speed > 0.0) {
+        state.term = static_cast<float>(terms.shorter(state.term, speed));
+      }
       activate(slot);
       // In I from now on. Not seen by anyone, it stays there for a few frames: near the border of what is
       // visible a new volume would be revealed at once, and that costs more than a discretisation.
@@ -229,7 +150,7 @@ void GridEngine::State::hide_unseen() {
   std::size_t kept = 0;
   for (const Slot slot : active) {
     ObjectState& state = world.objects[slot];
-    const bool keep = seen[slot] || !state.may_hide() || state.patience > 0;
+    const bool keep = seen[slot] || !state.may_hide || state.patience > 0;
     if (seen[slot]) {
       state.patience = 0;
     } else if (state.patience > 0) {

@@ -1,6 +1,5 @@
 // Objects coming, going and moving between frames, and their way between the matrices I and T.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -13,8 +12,6 @@
 
 namespace gridcull {
 namespace {
-
-constexpr Slot ahead = 6;
 
 Lattice make_lattice(const GridOptions& o) {
   return {o.dimension, o.bounds, o.cell, o.max_memory, o.store == StoreKind::dense ? Room::whole : Room::where_needed};
@@ -76,11 +73,13 @@ void GridEngine::State::add(const Object& object) {
   state.shape.emplace(std::move(shape));
   state.reach = state.shape->reach();
   state.round = std::holds_alternative<Disc>(object.shape) || std::holds_alternative<Sphere>(object.shape);
-  state.pose = object.pose;
+  world.objects.whereabouts(slot).pose = object.pose;
   state.occluder = object.occluder;
   state.is_static = object.is_static;
-  state.max_speed = object.max_speed ? *object.max_speed : -1.0;
-  if (state.max_speed > 0.0) state.term = static_cast<float>(terms.first(state.max_speed));
+  const double max_speed = object.max_speed ? *object.max_speed : -1.0;
+  world.objects.set_max_speed(slot, max_speed);
+  state.may_hide = state.moves() && max_speed >= 0.0;
+  if (max_speed > 0.0) state.term = static_cast<float>(terms.first(max_speed));
   state.known = object.is_static && options.static_cells && options.static_cells->find(object) != nullptr;
   state.tiled = world.tiles != nullptr && world.tiles->adopt(object, slot);
   state.place = Place::waiting;
@@ -112,60 +111,13 @@ void GridEngine::State::remove(Slot slot) {
   if (place == Place::waiting) drop(waiting);
   if (place == Place::active && !state.is_static) unlist_active(slot);
   if (state.jumped) drop(jumped);
-  if (state.pushed_frame == static_cast<std::uint32_t>(world.frame + 1)) {
+  if (world.objects.whereabouts(slot).pushed == round) {
     for (auto* list : {&pushed, &pushed_hidden}) {
       std::erase_if(*list, [&](const Pushed& p) { return p.slot == slot; });
     }
   }
   if (world.silhouettes) world.silhouettes->remove(slot);
   world.objects.remove(slot);
-}
-
-// Whether it is a jump is judged when the frame's time is known. Until then: from where, and how long the farthest of
-// these ways takes.
-void GridEngine::State::note_pushed(Slot slot, const Vec3& to) {
-  ObjectState& state = world.objects[slot];
-  // A moving object that waits was added since the last frame: it has no place there to have jumped from.
-  if (!state.moves() || state.place == Place::waiting || state.max_speed < 0.0) return;
-  const auto next_frame = static_cast<std::uint32_t>(world.frame + 1);
-  if (state.pushed_frame == next_frame) {
-    pushed_needs = std::numeric_limits<double>::infinity();  // two ways: look at their sum
-    return;
-  }
-  state.pushed_frame = next_frame;
-  (state.place == Place::hidden ? pushed_hidden : pushed).push_back({slot, state.pose.position});
-  const Vec3 way = to - state.pose.position;
-  pushed_needs = std::max(pushed_needs, glm::dot(way, way) / (state.max_speed * state.max_speed));
-}
-
-void GridEngine::State::move(Slot slot, const Pose& pose) {
-  ObjectState& state = world.objects[slot];
-  // Who tells of many moves mostly does so in the order in which the objects came.
-  if (follows_at_once() && slot + ahead < world.objects.size()) {
-    world.objects.prefetch(slot + ahead);
-    world.silhouettes->index.prefetch_ball(slot + ahead);
-    world.silhouettes->index.prefetch(slot + 2 * ahead < world.objects.size() ? slot + 2 * ahead : slot);
-  }
-  note_pushed(slot, pose.position);
-  state.pose = pose;
-  state.known = false;
-  leave_tiles(slot);
-  if (state.place == Place::hidden) return;  // settled when the frame's time is known
-  if (follows_at_once() && state.place == Place::active && !state.stale &&
-      world.silhouettes->follow_own(slot, state.pose)) {
-    return;
-  }
-  mark_stale(slot);
-  if (state.is_static && state.place == Place::active) {
-    state.place = Place::waiting;
-    waiting.push_back(slot);
-  }
-}
-
-void GridEngine::State::mark_stale(Slot slot) {
-  ObjectState& state = world.objects[slot];
-  if (follows_at_once() && !state.stale) stale.push_back(slot);
-  state.stale = true;
 }
 
 void GridEngine::State::set_outside(Slot slot, bool outside) {
@@ -186,7 +138,7 @@ void GridEngine::State::set_outside(Slot slot, bool outside) {
 // Known cells are used once, when the object is first entered: later changes are discretised.
 void GridEngine::State::find_cells(Slot slot) {
   ObjectState& state = world.objects[slot];
-  if (!state.known) return state.shape->cover(world.lattice, state.pose, scratch, cover_buffer);
+  if (!state.known) return state.shape->cover(world.lattice, world.objects.pose(slot), scratch, cover_buffer);
   const StaticCells& cells = *options.static_cells;
   const StaticCells::Member& member = *cells.find_id(state.id);
   const auto bricks = cells.of(member);
@@ -196,19 +148,48 @@ void GridEngine::State::find_cells(Slot slot) {
 }
 
 void GridEngine::State::cover(Slot slot) {
+  world.objects.whereabouts(slot).stale = false;
+  if (world.silhouettes) return hang(slot);
   ObjectState& state = world.objects[slot];
-  state.stale = false;
-  if (world.silhouettes) {
-    world.silhouettes->place(slot, state.pose);
-    world.silhouettes->note_stance(slot, state.pose);
-    if (world.silhouettes->follow(slot, state.pose)) return;
-    set_outside(slot, !world.silhouettes->enter(slot, world.silhouettes->ball_at(slot, state.pose)));
-    return;
-  }
   if (state.tiled) return set_outside(slot, world.tiles->reaches_outside(state.id));
   find_cells(slot);
   world.matrix.update(slot, cover_buffer, state.occluder, state.is_static, state.entries);
   set_outside(slot, cover_buffer.outside);
+}
+
+// The object's own ball, in the index.
+void GridEngine::State::hang(Slot slot) {
+  SilhouetteWorld& shapes = *world.silhouettes;
+  Whereabouts& where = world.objects.whereabouts(slot);
+  const Pose& pose = where.pose;
+  shapes.note_stance(slot, pose);
+  if ((where.marks & SilhouetteWorld::is_loose) != 0) {
+    // Neither the object's state nor its shape is needed, and both are cold.
+    const double wanted = room(slot);
+    const bool follows = shapes.index.slack(slot) >= wanted && shapes.index.follow(slot, pose.position);
+    if (!follows && !shapes.enter(slot, {pose.position, shapes.index.ball(slot).radius}, wanted)) {
+      set_outside(slot, true);
+      return unleash(slot);
+    }
+    where.leash = shapes.leash(slot);
+    where.marks = shapes.index.marks(slot);
+    return;
+  }
+  shapes.place(slot, pose);
+  if (!shapes.follow(slot, pose)) set_outside(slot, !shapes.enter(slot, shapes.ball_at(slot, pose), room(slot)));
+  if (!world.objects[slot].moves()) return;
+  const float leash = shapes.loosen(slot);
+  if (leash < 0.0F) return;
+  // Not all at full length: whoever is of a size and a speed would come back in the same frames.
+  where.leash = static_cast<float>(TbvTerm::spread(leash, slot, 0));
+  where.marks = shapes.index.marks(slot);
+}
+
+void GridEngine::State::unleash(Slot slot) {
+  Whereabouts& where = world.objects.whereabouts(slot);
+  where.leash = -1.0F;
+  if ((where.marks & SilhouetteWorld::is_loose) != 0) world.silhouettes->tighten(slot);
+  where.marks = 0;
 }
 
 void GridEngine::State::leave_tiles(Slot slot) {
@@ -254,18 +235,23 @@ void GridEngine::State::hide(Slot slot) {
   if (!world.silhouettes) leave_grid(slot);
   ObjectState& state = world.objects[slot];
   state.place = Place::hidden;
-  if (world.silhouettes) world.silhouettes->set_hidden(slot, true);
-  while (lengthen_term(state)) {
+  if (world.silhouettes) {
+    unleash(slot);
+    world.silhouettes->set_hidden(slot, true);
+  }
+  while (lengthen_term(slot)) {
   }
   give_volume(slot);
 }
 
 // A volume that reaches into bricks that somebody sees would be revealed at once.
-bool GridEngine::State::lengthen_term(ObjectState& state) {
-  if (!(state.max_speed > 0.0)) return false;
-  const auto longer = static_cast<float>(terms.longer(state.term, state.max_speed));
+bool GridEngine::State::lengthen_term(Slot slot) {
+  ObjectState& state = world.objects[slot];
+  const double max_speed = world.objects.max_speed(slot);
+  if (!(max_speed > 0.0)) return false;
+  const auto longer = static_cast<float>(terms.longer(state.term, max_speed));
   if (!(longer > state.term)) return false;
-  const TbvMatrix::Ball grown{state.pose.position, TbvTerm::radius(state.max_speed, longer, state.reach)};
+  const TbvMatrix::Ball grown{world.objects.pose(slot).position, TbvTerm::radius(max_speed, longer, state.reach)};
   if (!world.silhouettes && (!world.tbv.fits(grown) || world.near_seen(grown))) return false;
   state.term = longer;
   return true;
@@ -280,12 +266,13 @@ TbvMatrix::Ball GridEngine::State::volume(Slot slot) const {
 // The ball that holds the object from now until the expiry that it notes.
 TbvMatrix::Ball GridEngine::State::next_ball(Slot slot) {
   ObjectState& state = world.objects[slot];
+  const double max_speed = world.objects.max_speed(slot);
   double seconds = std::numeric_limits<double>::infinity();
-  if (state.max_speed > 0.0) seconds = TbvTerm::spread(state.term, slot, state.renewals++);
+  if (max_speed > 0.0) seconds = TbvTerm::spread(state.term, slot, state.renewals++);
   // Far from time 0 the sum is rounded, perhaps to a later time: the volume must hold until that.
   const double expiry = now + seconds;
   expiries.push(slot, expiry);
-  return {state.pose.position, TbvTerm::radius(state.max_speed, expiry - now, state.reach)};
+  return {world.objects.pose(slot).position, TbvTerm::radius(max_speed, expiry - now, state.reach)};
 }
 
 void GridEngine::State::give_volume(Slot slot) {
@@ -314,7 +301,7 @@ void GridEngine::State::place_volume(Slot slot, const TbvMatrix::Ball& ball) {
 void GridEngine::State::renew_volume(Slot slot) {
   const bool stays = options.tbv != TbvMode::hollow && world.tbv.holds(slot);
   if (!stays) take_volume(slot);
-  lengthen_term(world.objects[slot]);
+  lengthen_term(slot);
   if (!stays) return give_volume(slot);
   const TbvMatrix::Ball ball = next_ball(slot);
   if (world.tbv.fits(ball)) return world.tbv.renew(slot, ball);

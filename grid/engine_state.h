@@ -29,6 +29,7 @@ struct GridEngine::State {
   void add(const Object& object);
   void remove(Slot slot);
   void move(Slot slot, const Pose& pose);
+  void move_all(std::span<const Move> moves);
 
   // A frame, in this order.
   void check(double time, std::span<const View> views) const;
@@ -48,14 +49,23 @@ struct GridEngine::State {
     if (options.tbv == TbvMode::automatic) return world.source != nullptr || !follows_at_once();
     return options.tbv != TbvMode::off;
   }
-  /// A pushed move that leaves its object in its node of the index is done in move() already.
+  /// A pushed move that leaves its object on its leash is done in move() already.
   bool follows_at_once() const { return world.silhouettes != nullptr && options.dimension == 3; }
-  void note_pushed(Slot slot, const Vec3& to);
+  /// Whether the object moves on its leash; `square`: of its way, metres.
+  static bool stays_on_leash(Whereabouts& where, const Pose& to, double square);
+  void move_in_full(Slot slot, const Pose& pose, double square);
+  /// Keeps the object's old position; `list`: pushed or pushed_hidden.
+  void note_pushed(Slot slot, double square, std::vector<Pushed>& list);
   bool jumped_since(const Pushed& push, double step, double time) const;
   /// The object is to be covered at the start of the next frame.
   void mark_stale(Slot slot);
   /// Discretises the object in O and I at its present pose.
   void cover(Slot slot);
+  /// cover() of method `silhouette`.
+  void hang(Slot slot);
+  /// Metres that the object shall be able to go in its node of the index.
+  double room(Slot slot) const;
+  void unleash(Slot slot);
   /// The object's cells at its present pose, into cover_buffer.
   void find_cells(Slot slot);
   void activate(Slot slot);
@@ -70,7 +80,7 @@ struct GridEngine::State {
   /// The ball of a hidden object's volume.
   TbvMatrix::Ball volume(Slot slot) const;
   /// Doubles the object's term if the volume it then gets stays clear of what somebody sees.
-  bool lengthen_term(ObjectState& state);
+  bool lengthen_term(Slot slot);
   void take_volume(Slot slot);
   void leave_grid(Slot slot);
   /// The object's cells no longer come from tiles.
@@ -96,6 +106,8 @@ struct GridEngine::State {
   std::vector<Pushed> pushed, pushed_hidden;
   /// No object of `pushed` needs longer for its way, at its max_speed; seconds, squared, rounded.
   double pushed_needs = 0.0;
+  std::uint16_t round = 1;  // of pushes, between two frames; never 0
+  std::vector<Slot> told;   // of the moves in hand
   std::vector<Slot> jumped;
   std::vector<std::uint8_t> seen;  // per slot: in somebody's PVS in this frame
   std::vector<Slot> expired;

@@ -32,20 +32,14 @@ GridWorld::GridWorld(const Lattice& cells, bool with_silhouettes, std::optional<
       seen_in(tbv.block_count()),
       max_memory(memory) {}
 
-void check_pose(const Pose& pose, ObjectId object, int dimension) {
+void refuse_pose(const Pose& pose, ObjectId object, int dimension) {
   const Vec3& p = pose.position;
-  const Quat& q = pose.orientation;
-  const double length = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  const std::string where = "object " + std::to_string(object) + ": ";
   if (!(std::fabs(p.x) <= 1e9 && std::fabs(p.y) <= 1e9 && std::fabs(p.z) <= 1e9)) {
-    throw Error(ErrorCode::bad_frame,
-                "object " + std::to_string(object) + ": expected a finite position of magnitude at most 1e9");
+    throw Error(ErrorCode::bad_frame, where + "expected a finite position of magnitude at most 1e9");
   }
-  if (dimension == 2 && p.z != 0.0) {
-    throw Error(ErrorCode::bad_frame, "object " + std::to_string(object) + ": expected z = 0 in 2D");
-  }
-  if (!(std::fabs(length - 1.0) <= 1e-9)) {
-    throw Error(ErrorCode::bad_frame, "object " + std::to_string(object) + ": expected an orientation of length 1");
-  }
+  if (dimension == 2 && p.z != 0.0) throw Error(ErrorCode::bad_frame, where + "expected z = 0 in 2D");
+  throw Error(ErrorCode::bad_frame, where + "expected an orientation of length 1");
 }
 
 bool GridWorld::near_seen(const TbvMatrix::Ball& ball) const {
@@ -72,10 +66,10 @@ const Pose& GridWorld::read_alone(Slot slot) {
   if (source != nullptr && state.read_frame != static_cast<std::uint32_t>(frame)) {
     const Pose pose = source->pose(state.id);
     check_pose(pose, state.id, lattice.dimension());
-    state.pose = pose;
+    objects.whereabouts(slot).pose = pose;
   }
   note_read(state);
-  return state.pose;
+  return objects.pose(slot);
 }
 
 }  // namespace gridcull

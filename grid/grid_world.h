@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -73,7 +74,17 @@ struct GridWorld {
   std::mutex reading_;
 };
 
+/// Throws Error(bad_frame) where check_pose() does.
+[[noreturn]] void refuse_pose(const Pose& pose, ObjectId object, int dimension);
+
 /// Throws Error(bad_frame) unless the position is finite and within 1e9 (2D: z = 0) and the orientation of length 1.
-void check_pose(const Pose& pose, ObjectId object, int dimension);
+inline void check_pose(const Pose& pose, ObjectId object, int dimension) {
+  const Vec3& p = pose.position;
+  const Quat& q = pose.orientation;
+  const double length = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  const bool good = std::fabs(p.x) <= 1e9 && std::fabs(p.y) <= 1e9 && std::fabs(p.z) <= 1e9 &&
+                    (dimension == 3 || p.z == 0.0) && std::fabs(length - 1.0) <= 1e-9;
+  if (!good) refuse_pose(pose, object, dimension);
+}
 
 }  // namespace gridcull

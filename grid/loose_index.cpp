@@ -116,11 +116,11 @@ void LooseIndex::count(NodeId id, std::uint32_t step, int below) {
   }
 }
 
-void LooseIndex::place(Slot slot, LooseBall ball) {
+void LooseIndex::place(Slot slot, LooseBall ball, double room) {
   Entry& entry = entries_[slot];
   const int height = static_cast<int>(levels_.size());
   const bool here = entry.level != nowhere;
-  const int level = level_for(ball.radius);
+  const int level = std::min(level_for(ball.radius + room), top());
   Level& home = levels_[static_cast<std::size_t>(level)];
   const NodeId id = node_of(ball.centre, level);
   const auto index = static_cast<std::uint32_t>(home.index(id, dimension_));

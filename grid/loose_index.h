@@ -40,8 +40,14 @@ class LooseIndex {
   /// Whether place() takes the ball: its centre lies in the box and its radius is at most half the box's greatest
   /// extent. What it does not take the caller keeps elsewhere.
   bool takes(const LooseBall& ball) const;
-  /// Enters the slot's ball or moves it. takes(ball). (By value: it may be a ball of this index, which moves.)
-  void place(Slot slot, LooseBall ball);
+  /// Enters the slot's ball or moves it. takes(ball). (By value: it may be a ball of this index, which moves.) `room`:
+  /// metres, at least so much of it is wished for in slack(); there may be less at the coarsest level.
+  void place(Slot slot, LooseBall ball, double room = 0.0);
+  /// Metres that the ball of a slot that is here may go in any direction and still lie in its node's loose box.
+  double slack(Slot slot) const {
+    const Entry& entry = entries_[slot];
+    return 0.5 * side(entry.level) - rows_[entry.place].ball.radius;
+  }
   /// Nothing when it is not there.
   void erase(Slot slot);
   /// Moves a ball that stays in its node and keeps its radius: false, and nothing done, when it does not or is not

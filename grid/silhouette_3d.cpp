@@ -172,7 +172,7 @@ void Silhouette3D::look(BallRows::Place place) {
   world_->objects.prefetch(slot);
   if ((item.marks & SilhouetteWorld::is_ball) == 0) shapes_->prefetch_solid(slot);
   const bool has_volume = (item.marks & SilhouetteWorld::is_hidden) != 0;
-  const LooseBall ball = has_volume ? shapes_->ball_at(slot, pose_of(slot)) : item.ball;
+  const LooseBall ball = has_volume ? shapes_->ball_at(slot, pose_of(slot)) : ball_of(item);
   const bool upright = has_volume ? SilhouetteWorld::stands_upright(item.marks, pose_of(slot))
                                   : SilhouetteWorld::upright_now(item.marks);
   ++answer_->work.object_tests;
@@ -202,12 +202,11 @@ bool Silhouette3D::open_about(const BallRows::Item& item, const Vec3& centre, do
 }
 
 bool Silhouette3D::holds_viewpoint(Slot slot) const {
-  const ObjectState& state = world_->objects[slot];
-  return state.shape->holds(state.pose, volume_->apex());
+  return world_->objects[slot].shape->holds(pose_of(slot), volume_->apex());
 }
 
 SightFrame Silhouette3D::sight(Slot slot) const {
-  const Pose& pose = world_->objects[slot].pose;
+  const Pose& pose = pose_of(slot);
   return sight_frame(pose, rotation_of(pose.orientation), volume_->apex());
 }
 
@@ -280,9 +279,9 @@ bool Silhouette3D::open_slice(const Sliced& object) {
     }
   }
   const ObjectState& state = world_->objects[object.slot];
-  const LooseBall tested = solid != nullptr
-                               ? bounding_ball(object.slot, *solid)
-                               : LooseBall{state.pose.position, std::get<Sphere>(state.shape->shape()).radius};
+  const LooseBall tested =
+      solid != nullptr ? bounding_ball(object.slot, *solid)
+                       : LooseBall{pose_of(object.slot).position, std::get<Sphere>(state.shape->shape()).radius};
   const Vec3 centre = tested.centre - volume_->apex();
   const double radius = ball_slice_radius(glm::length(centre), tested.radius, far);
   return radius > 0.0 && mask_.open_ball(centre, radius);
@@ -298,11 +297,12 @@ bool Silhouette3D::in_view(Slot slot) const {
   if (volume_->all_round() && !std::isfinite(volume_->range())) return true;
   const ObjectState& state = world_->objects[slot];
   // All of it well within the range, by far more than roundings: so it touches it.
-  const Vec3 centre = state.pose.position - volume_->apex();
+  const Pose& pose = pose_of(slot);
+  const Vec3 centre = pose.position - volume_->apex();
   const double within = volume_->range() * (1.0 - 1e-9) - state.reach;
   if (volume_->all_round() && within > 0.0 && glm::dot(centre, centre) < within * within) return true;
-  if (!volume_->may_touch_ball(state.pose.position, state.reach)) return false;
-  return state.round || state.shape->may_touch(*volume_, state.pose);
+  if (!volume_->may_touch_ball(pose.position, state.reach)) return false;
+  return state.round || state.shape->may_touch(*volume_, pose);
 }
 
 void Silhouette3D::hide_behind(Slot slot) {
@@ -311,7 +311,7 @@ void Silhouette3D::hide_behind(Slot slot) {
   if (!state.round) {
     hide_behind_pieces(slot);
   } else {
-    hide_behind_ball({state.pose.position, std::get<Sphere>(state.shape->shape()).radius});
+    hide_behind_ball({pose_of(slot).position, std::get<Sphere>(state.shape->shape()).radius});
   }
 }
 

@@ -67,7 +67,10 @@ class Silhouette3D final : public ViewAnswerer {
   void push_children(const LooseIndex::NodeId& id);
   void open_node(LooseIndex::NodeId id);
   void push_group(const LooseIndex::NodeId& id);
-  void gather(const LooseIndex::NodeId& id, const LooseIndex::Node& node, Box& box);
+  /// Appends what hangs in the node and below to entries_, unweighed.
+  void gather(const LooseIndex::NodeId& id, const LooseIndex::Node& node);
+  /// Weighs entries_ from `first` on and keeps those that matter: how many.
+  std::uint32_t weigh_all(std::uint32_t first, Box& box);
   void look_at_group(const Group& group);
   void push_entries(const Group& group);
   void push_entry(const BallRows::Item& item, BallRows::Place place);
@@ -98,7 +101,16 @@ class Silhouette3D final : public ViewAnswerer {
   /// The ball's radius and what the rounding of its place relative to the viewpoint may make of it.
   double grown(const LooseBall& ball) const;
   SightFrame sight(Slot slot) const;
-  const Pose& pose_of(Slot slot) const { return world_->objects[slot].pose; }
+  /// The object's own ball, or its volume.
+  LooseBall ball_of(const BallRows::Item& item) const {
+    if ((item.marks & SilhouetteWorld::is_loose) == 0) return item.ball;
+    return {pose_of(item.slot).position, item.ball.radius};
+  }
+  /// Hints that ball_of() is needed soon.
+  void prefetch_ball(const BallRows::Item& item) const {
+    if ((item.marks & SilhouetteWorld::is_loose) != 0) world_->objects.prefetch_whereabouts(item.slot);
+  }
+  const Pose& pose_of(Slot slot) const { return world_->objects.pose(slot); }
 
   int resolution_;
   CoverageMask mask_;

@@ -66,6 +66,7 @@ void Silhouette3D::open_node(LooseIndex::NodeId id) {
   }
   ++answer_->work.cells_visited;
   if (drawing_) walked_.opened.push_back(id);
+  index.each(node.first, [this](const BallRows::Item& item, BallRows::Place) { prefetch_ball(item); });
   index.each(node.first, [this](const BallRows::Item& item, BallRows::Place place) { push_entry(item, place); });
   if (id.level > 0) push_children(id);
 }
@@ -84,27 +85,36 @@ void Silhouette3D::push_group(const LooseIndex::NodeId& id) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto first = static_cast<std::uint32_t>(entries_.size());
   Group group{{Vec3(infinity), Vec3(-infinity)}, id, first, 0};
-  gather(id, shapes_->index.node(id), group.box);
-  group.count = static_cast<std::uint32_t>(entries_.size()) - first;
+  gather(id, shapes_->index.node(id));
+  group.count = weigh_all(first, group.box);
   if (group.count < worth_testing) return push_entries(group);
   groups_.push_back(group);
   queue_.push(FrontQueue::Kind::group, distance_to_box(group.box.low, group.box.high) - blur_, groups_.size() - 1);
 }
 
-void Silhouette3D::gather(const LooseIndex::NodeId& id, const LooseIndex::Node& node, Box& box) {
+void Silhouette3D::gather(const LooseIndex::NodeId& id, const LooseIndex::Node& node) {
   const LooseIndex& index = shapes_->index;
   index.each(node.first, [&](const BallRows::Item& item, BallRows::Place place) {
-    double key;
-    if (weigh(item, item.ball, SilhouetteWorld::upright_now(item.marks), key, box)) {
-      entries_.push_back({key, place, kind_of(item)});
-    }
+    prefetch_ball(item);
+    entries_.push_back({0.0, place, kind_of(item)});
   });
   const LooseIndex::Node* children = id.level > 0 ? index.children(id) : nullptr;
   for (int child = 0; children != nullptr && child < 8; ++child) {
     if (children[child].below == 0) continue;
     gather({id.level - 1, 2 * id.x + (child & 1), 2 * id.y + (child >> 1 & 1), 2 * id.z + (child >> 2)},
-           children[child], box);
+           children[child]);
   }
+}
+
+std::uint32_t Silhouette3D::weigh_all(std::uint32_t first, Box& box) {
+  std::uint32_t kept = first;
+  for (std::uint32_t i = first; i < entries_.size(); ++i) {
+    Entry& entry = entries_[kept] = entries_[i];
+    const BallRows::Item& item = shapes_->index.item(entry.place);
+    if (weigh(item, ball_of(item), SilhouetteWorld::upright_now(item.marks), entry.key, box)) ++kept;
+  }
+  entries_.resize(kept);
+  return kept - first;
 }
 
 void Silhouette3D::look_at_group(const Group& group) {
@@ -130,7 +140,7 @@ void Silhouette3D::push_entries(const Group& group) {
 void Silhouette3D::push_entry(const BallRows::Item& item, BallRows::Place place) {
   double key;
   Box box;
-  if (!weigh(item, item.ball, SilhouetteWorld::upright_now(item.marks), key, box)) return;
+  if (!weigh(item, ball_of(item), SilhouetteWorld::upright_now(item.marks), key, box)) return;
   if ((item.marks & SilhouetteWorld::is_ball) == 0) shapes_->prefetch_body(item.slot);
   queue_.push(kind_of(item), key, place);
 }

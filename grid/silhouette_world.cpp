@@ -124,9 +124,9 @@ void SilhouetteWorld::remove(Slot slot) {
   bodies_[slot] = {};
 }
 
-bool SilhouetteWorld::enter(Slot slot, LooseBall ball) {
+bool SilhouetteWorld::enter(Slot slot, LooseBall ball, double room) {
   if (index.takes(ball)) {
-    index.place(slot, ball);
+    index.place(slot, ball, room);
     return true;
   }
   index.erase(slot);

@@ -41,17 +41,26 @@ class SilhouetteWorld {
 
   /// Hangs the ball into the index. False when it does not fit there: then the index only remembers it, and the
   /// object belongs in GridWorld::outside.
-  bool enter(Slot slot, LooseBall ball);
+  /// `room`: metres that it shall be able to go in its node (LooseIndex::place()).
+  bool enter(Slot slot, LooseBall ball, double room = 0.0);
 
   /// enter() for an object that moved a little: false, and nothing done, when more is to do than to move its ball.
   bool follow(Slot slot, const Pose& pose) { return index.follow(slot, ball_at(slot, pose)); }
-  /// The same where the index is known to have the object's own ball, and not a volume.
-  bool follow_own(Slot slot, const Pose& pose) {
+
+  /// 3D: lets an object whose own ball hangs in the index move without telling the index, as long as its way is not
+  /// longer than is returned (metres, rounded down). Below 0, and nothing done, where that cannot be: only a ball about
+  /// the object's position does not turn with it.
+  float loosen(Slot slot) {
     const std::uint8_t marks = index.marks(slot);
-    if (((marks & is_upright) != 0) != stands_upright(marks, pose)) return false;
-    if ((marks & is_centred) == 0) return follow(slot, pose);
-    return index.follow(slot, pose.position);
+    if (index.dimension() == 2 || (marks & (is_centred | is_hidden)) != is_centred || !index.holds(slot)) return -1.0F;
+    const float length = leash(slot);
+    if (length > 0.0F) index.set_marks(slot, marks | is_loose);
+    return length > 0.0F ? length : -1.0F;
   }
+  /// The same for one that is loose, after its ball has followed.
+  float leash(Slot slot) const { return static_cast<float>(index.slack(slot) * (1.0 - 0x1p-20)); }
+  /// The index says again where the object is.
+  void tighten(Slot slot) { index.set_marks(slot, static_cast<std::uint8_t>(index.marks(slot) & ~is_loose)); }
   /// Notes how the object stands before enter() or follow() gets its own ball.
   void note_stance(Slot slot, const Pose& pose) {
     const std::uint8_t marks = index.marks(slot);
@@ -67,7 +76,8 @@ class SilhouetteWorld {
     is_hidden = 4,   ///< the index has its temporal bounding volume instead of its ball
     is_occluder = 8,
     has_filling = 16,  ///< 3D: upright it fills part of its ball only
-    is_upright = 32    ///< and it stands upright now: turned about +z only
+    is_upright = 32,   ///< and it stands upright now: turned about +z only
+    is_loose = 64      ///< its ball in the index lags behind: it is about the object's position, wherever that is
   };
   /// Within what a ball's item says of its object, relative to the ball's centre: metres along x and y, and along z.
   struct Filling {

@@ -112,7 +112,7 @@ void ViewTask::find_containers() {
   }
   for (const Slot slot : pending_) {
     const ObjectState& state = world.objects[slot];
-    if (slot == rides_ || !state.shape->holds(state.pose, volume_->apex())) continue;
+    if (slot == rides_ || !state.shape->holds(world.objects.pose(slot), volume_->apex())) continue;
     exclude(slot);
     if (mark(slot)) result_->seen.push_back(slot);
   }
@@ -164,14 +164,14 @@ void ViewTask::look_outside() {
   if (world.tiles) {
     world.tiles->each_unheld(*volume_, [&](Slot slot) {
       ++answer_->work.object_tests;
-      consider(slot, world.objects[slot].pose);
+      consider(slot, world.objects.pose(slot));
     });
   }
   for (const Slot slot : world.outside) {
     const ObjectState& state = world.objects[slot];
     if (state.place == Place::active) {
       ++answer_->work.object_tests;
-      consider(slot, state.pose);
+      consider(slot, world.objects.pose(slot));
     } else {
       ++answer_->work.tbv_tests;
       const TbvMatrix::Ball& ball = world.tbv.ball(slot);
@@ -245,7 +245,7 @@ void ViewTask::collect_brick(std::size_t lattice_brick, std::uint64_t visible) {
   world_->note_seen(world_->tbv.block_of(lattice_brick));
   matrix.each_in_brick(lattice_brick, [&](const IdentifierMatrix::Entry& entry) {
     ++answer_->work.object_tests;
-    if (entry.touched & visible) consider(entry.slot, world_->objects[entry.slot].pose);
+    if (entry.touched & visible) consider(entry.slot, world_->objects.pose(entry.slot));
   });
 }
 

@@ -57,6 +57,10 @@ class FrustumCuller final : public Culler {
   }
   void remove(ObjectId object) override { objects_.erase(find(object)); }
   void move(ObjectId object, const Pose& pose) override { find(object)->second.object.pose = pose; }
+  void move_all(std::span<const Move> moves) override {
+    for (const Move& m : moves) (void)find(m.object);
+    for (const Move& m : moves) move(m.object, m.pose);
+  }
   void set_source(PositionSource* source) override { source_ = source; }
   void announce_jump(ObjectId object) override { find(object); }
 

@@ -24,7 +24,7 @@ class Changes {
   void tell(const World& world, CourseFrame& out) const {
     out.removed.assign(removed_.begin(), removed_.end());
     for (const ObjectId id : added_) out.added.push_back(world.object(id));
-    for (const ObjectId id : moved_) out.moved.emplace_back(id, world.object(id).pose);
+    for (const ObjectId id : moved_) out.moved.push_back({id, world.object(id).pose});
   }
 
  private:
@@ -36,7 +36,7 @@ class Changes {
 void feed(Culler& culler, const CourseFrame& frame) {
   for (const ObjectId id : frame.removed) culler.remove(id);
   for (const Object& object : frame.added) culler.add(object);
-  for (const auto& [id, pose] : frame.moved) culler.move(id, pose);
+  culler.move_all(frame.moved);
 }
 
 Course::Course(const BenchScene& scene, std::uint64_t frames, std::uint64_t every)
@@ -82,7 +82,7 @@ void Course::tell(CourseFrame& out) const {
   std::sort(added.begin(), added.end());
   for (const ObjectMove& move : frame_.set) {
     if (std::binary_search(added.begin(), added.end(), move.id)) continue;
-    out.moved.emplace_back(move.id, world_.object(move.id).pose);
+    out.moved.push_back({move.id, world_.object(move.id).pose});
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "gridcull/core/culler.h"
@@ -18,7 +17,7 @@ struct CourseFrame {
   double time = 0.0;  ///< seconds
   std::vector<ObjectId> removed{};
   std::vector<Object> added{};  ///< as they stand at the end of the frame
-  std::vector<std::pair<ObjectId, Pose>> moved{};
+  std::vector<Move> moved{};
   std::vector<View> views{};
 };
 

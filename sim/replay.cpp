@@ -56,16 +56,18 @@ void Replay::feed_objects(double seconds) {
     added.push_back(object.object.id);
   }
   std::sort(added.begin(), added.end());
+  moves_.clear();
   for (std::size_t i = 0; i < current_.set.size(); ++i) {
     if (added.empty() || !std::binary_search(added.begin(), added.end(), current_.set[i].id)) {
       feed_move(world_.set_object(i), feed_ == Feed::pull ? before_[i] : Vec3(0.0), seconds);
     }
   }
+  culler_.move_all(moves_);
 }
 
 void Replay::feed_move(const Object& object, const Vec3& before, double seconds) {
   if (feed_ == Feed::push || object.is_static) {
-    culler_.move(object.id, object.pose);
+    moves_.push_back({object.id, object.pose});
     return;
   }
   // Without max_speed there is no bounding volume to leave, before the first query there is none yet.

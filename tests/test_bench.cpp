@@ -119,7 +119,7 @@ TEST_CASE("bench: every other frame is told what happened in between") {
   REQUIRE(frame.added.size() == 2);  // 3, where it went since, and 4
   CHECK(frame.added[0].pose.position == Vec3(7.0, 8.0, 0.0));
   REQUIRE(frame.moved.size() == 1);
-  CHECK(frame.moved[0].second.position == Vec3(2.0, 0.0, 0.0));
+  CHECK(frame.moved[0].pose.position == Vec3(2.0, 0.0, 0.0));
   REQUIRE(frame.views.size() == 1);
   CHECK(frame.views[0].pose.position == Vec3(2.0, 0.0, 0.0));
   REQUIRE(course.next(frame));
@@ -129,7 +129,7 @@ TEST_CASE("bench: every other frame is told what happened in between") {
   CHECK(frame.added[0].id == 2);
   CHECK(frame.added[0].pose.position == Vec3(2.0, 2.0, 0.0));
   REQUIRE(frame.moved.size() == 1);
-  CHECK(frame.moved[0].first == 4);
+  CHECK(frame.moved[0].object == 4);
   CHECK_FALSE(course.next(frame));  // one frame is left, and two were asked for
 }
 
