@@ -165,18 +165,23 @@ void Connection::apply_frame(const WireRequest& request) {
   Session& session = held_->session;
   FrameRequest frame = read_frame_request(request, session.dimension());
   const bool is_new = frame.seq != session.seq();
+  Bytes bytes;
   try {
-    const std::string bytes = encoded(frame_message(session.apply(std::move(frame))), encoding_);
-    send(std::make_shared<const std::string>(bytes), encoding_ == Encoding::json);
+    bytes = std::make_shared<const std::string>(encoded(frame_message(session.apply(std::move(frame))), encoding_));
   } catch (...) {
     // The refusal goes out first.
     failed_ = session.broken();
     if (failed_) parts_.hub.close(held_);
     throw;
   }
+  // Counted before it is answered: who has the answer finds the frame in every list.
+  if (is_new) {
+    held_->summarise(true);
+    note_frame(session, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  send(std::move(bytes), encoding_ == Encoding::json);
   if (!is_new) return;
-  held_->summarise(true);
-  note_frame(session, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  audit(session);
   if (held_->watchers.empty()) return session.draw(no_id);
   nlohmann::ordered_json step = watch_step(session, session.last_frame());
   if (const auto exact = held_->exact(session.drawing())) step["exact"] = *exact;
@@ -197,11 +202,14 @@ void Connection::note_frame(const Session& session, double seconds) {
   metrics.tbv_revealed.Increment(static_cast<double>(answers.stats.tbv_revealed));
   metrics.frame_seconds.Observe(seconds);
   for (const Answer& answer : answers.views) metrics.pvs_objects.Observe(static_cast<double>(answer.visible.size()));
+}
+
+void Connection::audit(const Session& session) {
   const auto told = [weak = std::weak_ptr(held_)](ViewerId viewer, std::size_t exact) {
     if (const std::shared_ptr<HeldSession> held = weak.lock()) held->note_exact(viewer, exact);
   };
-  parts_.audit.offer(session.world().objects(), session.dimension(), session.views(), answers, session.guarantee(),
-                     told);
+  parts_.audit.offer(session.world().objects(), session.dimension(), session.views(), session.answers(),
+                     session.guarantee(), told);
 }
 
 void Connection::explain_object(const WireRequest& request) {

@@ -88,6 +88,7 @@ class Connection final : public SessionListener, public std::enable_shared_from_
   /// The session with its lock; refuses when there is none or somebody else has it.
   std::unique_lock<std::mutex> use_session() const;
   void note_frame(const Session& session, double seconds);
+  void audit(const Session& session);
   void refuse(const std::exception& fault, std::optional<std::uint64_t> seq);
 
   void say(const nlohmann::ordered_json& message);

@@ -437,6 +437,21 @@ TEST_CASE("a record is the session: it replays to the same answers") {
   CHECK(listed.at("pvs_hash") == hash_text(hash.value()));
 }
 
+TEST_CASE("who has an answer finds its frame counted, in the list of sessions and in the metrics") {
+  ServerOptions options;
+  options.threads = 2;
+  RunningServer server(options);
+  RawSocket client(server.port());
+  client.ask(open_message());
+  for (std::uint64_t seq = 1; seq <= 300; ++seq) {
+    client.ask(frame_message(seq));
+    const Json listed = Json::parse(http_get(server.port(), "/v1/sessions").body).at("sessions")[0];
+    REQUIRE(listed.at("seq") == seq);
+    const std::string counted = "\ngridcull_frames_total " + std::to_string(seq) + "\n";
+    REQUIRE(http_get(server.port(), "/metrics").body.find(counted) != std::string::npos);
+  }
+}
+
 TEST_CASE("an audit judges answers in the background and finds nothing amiss") {
   ServerOptions options;
   options.audit = 1.0;
