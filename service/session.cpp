@@ -79,7 +79,7 @@ bool Session::begin_drawing() {
   return true;
 }
 
-const FrameReply& Session::apply(FrameRequest request) {
+const FrameReply& Session::apply(FrameRequest& request) {
   if (seq_ > 0 && request.seq == seq_) {
     // Again, and after a resume in full, since nobody knows what has arrived.
     if (fresh_) make_reply(request);
@@ -92,7 +92,7 @@ const FrameReply& Session::apply(FrameRequest request) {
                 "message: /seq: expected " + std::to_string(seq_ + 1) + ", found " + std::to_string(request.seq));
   }
   check_count(request.frame);
-  source_.frame = std::move(request.frame);
+  source_.frame = &request.frame;
   const bool draws = begin_drawing();
   const std::optional<double> before = world().time();
   try {
@@ -129,14 +129,18 @@ void Session::make_reply(const FrameRequest& request) {
   reply_.time = world().time().value_or(0.0);
   reply_.bulk = request.bulk;
   reply_.wanted = request.reply != ReplyKind::none;
-  reply_.answers.clear();
-  if (!reply_.wanted) return;
+  if (!reply_.wanted) return reply_.answers.clear();
   const bool full = fresh_ || request.reply == ReplyKind::full;
-  for (const Answer& answer : answers().views) {
-    ViewerReply& reply = reply_.answers.emplace_back();
+  reply_.answers.resize(answers().views.size());
+  for (std::size_t i = 0; i < reply_.answers.size(); ++i) {
+    const Answer& answer = answers().views[i];
+    ViewerReply& reply = reply_.answers[i];  // kept for its memory
     reply.viewer = answer.viewer;
     reply.full = full || unsure_.contains(answer.viewer);
     unsure_.erase(answer.viewer);
+    reply.visible.clear();
+    reply.added.clear();
+    reply.removed.clear();
     std::vector<ObjectId>& told = told_[answer.viewer];
     if (reply.full) {
       reply.visible = answer.visible;

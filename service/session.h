@@ -68,8 +68,8 @@ class Session {
 
   /// Applies the next frame, or answers the last one again. A refusal changes nothing and does not use up the number:
   /// Error(sequence), Error(bad_frame), Error(unknown_object), Error(limit). After any other exception the session
-  /// is broken().
-  const FrameReply& apply(FrameRequest request);
+  /// is broken(). The request's frame is swapped for an older one, whose memory the next request may use.
+  const FrameReply& apply(FrameRequest& request);
   /// The last applied frame; after a refusal, the refused one.
   const Frame& last_frame() const { return replay_->last_frame(); }
   bool broken() const { return broken_; }
@@ -88,12 +88,12 @@ class Session {
   Explanation explain(const ExplainRequest& request) const;
 
  private:
-  /// Hands the frame in hand to the replay.
+  /// Hands the frame in hand to the replay, and the replay's last one back.
   class OneFrame final : public FrameSource {
    public:
-    Frame frame{};
+    Frame* frame = nullptr;
     bool next(Frame& out) override {
-      out = std::move(frame);
+      std::swap(out, *frame);
       return true;
     }
   };

@@ -1,12 +1,18 @@
+// Numbers are checked and turned into poses straight from the message's bytes, in loops without branches that depend on
+// them; only when something is wrong it is looked for where.
 #include "gridcull/service/wire_bulk.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string_view>
 
 #include "gridcull/core/error.h"
+#include "gridcull/core/trigonometry.h"
 #include "gridcull/sim/scene_json.h"
 
 namespace gridcull {
@@ -15,13 +21,31 @@ namespace {
 constexpr double greatest = 1e9;
 
 template <class Word>
-Word word_at(std::string_view bytes, std::size_t index) {
-  Word word = 0;
-  for (std::size_t i = sizeof(Word); i-- > 0;) {
-    word = static_cast<Word>(word << 8 | static_cast<std::uint8_t>(bytes[index * sizeof(Word) + i]));
-  }
-  return word;
+Word in_file_order(Word word) {
+  if constexpr (std::endian::native == std::endian::little) return word;
+  Word turned = 0;
+  for (std::size_t i = 0; i < sizeof(Word); ++i) turned = static_cast<Word>(turned << 8 | (word >> 8 * i & 0xFF));
+  return turned;
 }
+
+template <class Word>
+Word word_at(const char* bytes, std::size_t index) {
+  Word word;
+  std::memcpy(&word, bytes + index * sizeof(Word), sizeof(Word));
+  return in_file_order(word);
+}
+
+/// As f32 or f64, little-endian.
+template <class Float>
+struct Floats {
+  static constexpr std::size_t size = sizeof(Float);
+  const char* bytes;
+
+  double operator[](std::size_t index) const {
+    if constexpr (size == 8) return std::bit_cast<double>(word_at<std::uint64_t>(bytes, index));
+    return static_cast<double>(std::bit_cast<float>(word_at<std::uint32_t>(bytes, index)));
+  }
+};
 
 /// Numbers of one key: f32, or f64 under the key's other name.
 class Numbers {
@@ -36,6 +60,7 @@ class Numbers {
     wide_ = wide_json.has_value();
     json_ = wide_ ? wide_json : narrow_json;
     bytes_ = json_->bytes();
+    each_ = each;
     const std::size_t size = wide_ ? 8 : 4;
     if (bytes_.size() != objects * each * size) {
       json_->refuse_with("expected " + std::to_string(objects * each * size) + " bytes, " + std::to_string(each) +
@@ -45,78 +70,119 @@ class Numbers {
   }
 
   explicit operator bool() const { return json_.has_value(); }
-  double at(std::size_t index) const {
-    const double value = wide_ ? std::bit_cast<double>(word_at<std::uint64_t>(bytes_, index))
-                               : static_cast<double>(std::bit_cast<float>(word_at<std::uint32_t>(bytes_, index)));
-    if (!(std::fabs(value) <= greatest)) {
-      json_->refuse_with("expected numbers of magnitude at most 1e9, found another at place " + std::to_string(index));
-    }
-    return value;
-  }
   const JsonRef& json() const { return *json_; }
 
+  /// Calls `action` with something whose [index] is the index-th number from the given object's first one on, once the
+  /// numbers of that many objects are known to be finite and of magnitude at most 1e9.
+  template <class Action>
+  void use(std::size_t object, std::size_t objects, const Action& action) const {
+    const std::size_t first = object * each_, count = objects * each_;
+    const auto with = [&](const auto numbers) {
+      bool fine = true;
+      for (std::size_t i = 0; i < count; ++i) fine &= std::fabs(numbers[i]) <= greatest;
+      for (std::size_t i = 0; i < count && !fine; ++i) {
+        if (!(std::fabs(numbers[i]) <= greatest)) refuse_wild(first + i);
+      }
+      action(numbers);
+    };
+    wide_ ? with(Floats<double>{bytes_.data() + 8 * first}) : with(Floats<float>{bytes_.data() + 4 * first});
+  }
+
  private:
+  [[noreturn]] void refuse_wild(std::size_t place) const {
+    json_->refuse_with("expected numbers of magnitude at most 1e9, found another at place " + std::to_string(place));
+  }
+
   std::optional<JsonRef> json_{};
   std::string_view bytes_{};
+  std::size_t each_ = 0;
   bool wide_ = false;
 };
 
-void refuse_repeated_ids(const JsonRef& json, const std::vector<ObjectMove>& moves) {
-  std::vector<ObjectId> ids;
-  for (const ObjectMove& move : moves) ids.push_back(move.id);
-  if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
-  const auto twice = std::adjacent_find(ids.begin(), ids.end());
-  if (twice != ids.end()) json.refuse_with("expected each id once, found " + std::to_string(*twice) + " twice");
+void read_bulk_ids(const JsonRef& json, std::vector<ObjectId>& ids) {
+  const std::string_view bytes = json.bytes();
+  if (bytes.size() % 4 != 0) json.refuse_with("expected 4 bytes an id, found " + std::to_string(bytes.size()));
+  ids.resize(bytes.size() / 4);
+  bool fine = true;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    ids[i] = word_at<std::uint32_t>(bytes.data(), i);
+    fine &= ids[i] != no_id;
+  }
+  if (!fine) json.refuse_with("expected ids of at most 4294967294, found 4294967295");
 }
 
-Quat orientation_at(const Numbers& numbers, std::size_t object) {
-  const std::size_t i = 4 * object;
-  try {
-    return settled({numbers.at(i), numbers.at(i + 1), numbers.at(i + 2), numbers.at(i + 3)});
-  } catch (const Error&) {
-    numbers.json().refuse_with("expected unit quaternions, found another for id number " + std::to_string(object));
-  }
+/// Moves are read so many at a time, all their parts, so that what is written stays near.
+constexpr std::size_t stretch = 256;
+
+void read_positions(const Numbers& numbers, std::size_t first, int dimension, std::span<Pose> poses) {
+  numbers.use(first, poses.size(), [&](const auto at) {
+    for (std::size_t i = 0; i < poses.size() && dimension == 2; ++i) {
+      poses[i].position = {at[2 * i], at[2 * i + 1], 0.0};
+    }
+    for (std::size_t i = 0; i < poses.size() && dimension == 3; ++i) {
+      poses[i].position = {at[3 * i], at[3 * i + 1], at[3 * i + 2]};
+    }
+  });
+}
+
+/// turn_about_z() of many.
+void read_headings(const Numbers& numbers, std::size_t first, std::span<double> headings, std::span<Pose> poses) {
+  std::array<double, stretch> half;
+  std::array<SinCos, stretch> turned;
+  numbers.use(first, poses.size(), [&](const auto at) {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      headings[i] = at[i];
+      half[i] = 0.5 * headings[i];
+    }
+  });
+  stable_sincos(std::span(half.data(), poses.size()), turned);
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].orientation = {turned[i].cos, 0.0, 0.0, turned[i].sin};
+}
+
+void read_orientations(const Numbers& numbers, std::size_t first, std::span<Pose> poses) {
+  numbers.use(first, poses.size(), [&](const auto at) {
+    std::size_t i = 0;
+    try {
+      for (; i < poses.size(); ++i) {
+        poses[i].orientation = settled({at[4 * i], at[4 * i + 1], at[4 * i + 2], at[4 * i + 3]});
+      }
+    } catch (const Error&) {
+      numbers.json().refuse_with("expected unit quaternions, found another for id number " + std::to_string(first + i));
+    }
+  });
 }
 
 }  // namespace
 
-std::vector<ObjectMove> read_bulk_moves(const JsonRef& frame, int dimension) {
-  const auto ids_json = frame.find(set_ids);
-  const std::string_view ids = ids_json ? ids_json->bytes() : std::string_view{};
-  if (ids.size() % 4 != 0) ids_json->refuse_with("expected 4 bytes an id, found " + std::to_string(ids.size()));
-  const std::size_t count = ids.size() / 4;
-  const auto places = static_cast<std::size_t>(dimension);
-  const Numbers positions(frame, set_positions, set_positions64, places, count);
+void read_bulk_moves(const JsonRef& frame, int dimension, BulkMoves& out) {
+  out.ids.clear();
+  out.headings.clear();
+  if (const auto ids = frame.find(set_ids)) read_bulk_ids(*ids, out.ids);
+  const std::size_t count = out.ids.size();
+  const Numbers positions(frame, set_positions, set_positions64, static_cast<std::size_t>(dimension), count);
   const Numbers headings(frame, set_headings, set_headings64, 1, count);
   const Numbers orientations(frame, set_orientations, set_orientations64, 4, count);
   if (orientations && dimension == 2) orientations.json().refuse_with("a 2D scene has headings, not orientations");
   if (headings && dimension == 3) headings.json().refuse_with("a 3D scene has orientations in bulk, not headings");
-  std::vector<ObjectMove> moves(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    ObjectMove& move = moves[i];
-    move.id = word_at<std::uint32_t>(ids, i);
-    if (move.id == no_id) ids_json->refuse_with("expected ids of at most 4294967294, found 4294967295");
-    if (positions) {
-      const std::size_t at = places * i;
-      move.position = Vec3(positions.at(at), positions.at(at + 1), places == 3 ? positions.at(at + 2) : 0.0);
-    }
-    if (headings) {
-      move.heading = headings.at(i);
-      move.orientation = turn_about_z(*move.heading);
-    }
-    if (orientations) move.orientation = orientation_at(orientations, i);
+  out.poses.resize(count);
+  if (headings) out.headings.resize(count);
+  out.positions = static_cast<bool>(positions);
+  out.orientations = headings || orientations;
+  for (std::size_t first = 0; first < count; first += stretch) {
+    const std::span<Pose> poses = std::span(out.poses).subspan(first, std::min(stretch, count - first));
+    if (positions) read_positions(positions, first, dimension, poses);
+    if (headings) read_headings(headings, first, std::span(out.headings).subspan(first), poses);
+    if (orientations) read_orientations(orientations, first, poses);
   }
-  if (ids_json) refuse_repeated_ids(*ids_json, moves);
-  return moves;
 }
 
-std::vector<std::uint8_t> bulk_ids(const std::vector<ObjectId>& ids) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(4 * ids.size());
-  for (const ObjectId id : ids) {
-    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(id >> shift));
+void append_bulk_ids(std::span<const ObjectId> ids, std::string& out) {
+  const std::size_t before = out.size();
+  out.resize(before + 4 * ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::uint32_t word = in_file_order(ids[i]);
+    std::memcpy(out.data() + before + 4 * i, &word, sizeof word);
   }
-  return bytes;
 }
 
 }  // namespace gridcull

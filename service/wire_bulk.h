@@ -1,9 +1,8 @@
 // Moves in bulk: byte strings of little-endian numbers beside each other, in CBOR messages only (FORMATS, "Service").
 #pragma once
 
-#include <cstdint>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "gridcull/core/ids.h"
 #include "gridcull/sim/frames.h"
@@ -17,10 +16,11 @@ inline constexpr const char *set_ids = "set_ids", *set_positions = "set_position
                             *set_headings64 = "set_headings64", *set_orientations = "set_orientations",
                             *set_orientations64 = "set_orientations64";
 
-/// The moves that `frame` has in bulk; none where it has none. Throws Error(bad_frame).
-std::vector<ObjectMove> read_bulk_moves(const JsonRef& frame, int dimension);
+/// Reads the moves that `frame` has in bulk; none where it has none. `out` is reused. Whether an object is there, and
+/// none twice, is the world's to say. Throws Error(bad_frame).
+void read_bulk_moves(const JsonRef& frame, int dimension, BulkMoves& out);
 
-/// Ids as u32, little-endian.
-std::vector<std::uint8_t> bulk_ids(const std::vector<ObjectId>& ids);
+/// Appends ids as u32, little-endian.
+void append_bulk_ids(std::span<const ObjectId> ids, std::string& out);
 
 }  // namespace gridcull

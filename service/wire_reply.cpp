@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gridcull/service/wire_bulk.h"
+#include "gridcull/sim/cbor_writer.h"
 
 namespace gridcull {
 namespace {
@@ -15,8 +16,47 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json ids_json(const std::vector<ObjectId>& ids, bool bulk) {
-  if (bulk) return Json::binary(bulk_ids(ids));
-  return ids;
+  if (!bulk) return ids;
+  std::string bytes;
+  append_bulk_ids(ids, bytes);
+  return Json::binary(std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
+}
+
+void append_ids(CborWriter& cbor, std::string_view key, const std::vector<ObjectId>& ids, bool bulk, std::string& out) {
+  cbor.text(key);
+  if (bulk) {
+    cbor.bytes(4 * ids.size());
+    return append_bulk_ids(ids, out);
+  }
+  cbor.array(ids.size());
+  for (const ObjectId id : ids) cbor.whole(id);
+}
+
+std::string cbor_of(const FrameReply& reply) {
+  std::string out;
+  CborWriter cbor(out);
+  cbor.map(reply.wanted ? 4 : 2);
+  cbor.text("type");
+  cbor.text(reply.wanted ? "pvs" : "ok");
+  cbor.text("seq");
+  cbor.whole(reply.seq);
+  if (!reply.wanted) return out;
+  cbor.text("time");
+  cbor.number(reply.time);
+  cbor.text("answers");
+  cbor.array(reply.answers.size());
+  for (const ViewerReply& viewer : reply.answers) {
+    cbor.map(viewer.full ? 2 : 3);
+    cbor.text("viewer");
+    cbor.whole(viewer.viewer);
+    if (viewer.full) {
+      append_ids(cbor, "visible", viewer.visible, reply.bulk, out);
+    } else {
+      append_ids(cbor, "added", viewer.added, reply.bulk, out);
+      append_ids(cbor, "removed", viewer.removed, reply.bulk, out);
+    }
+  }
+  return out;
 }
 
 std::string code_name(ErrorCode code) {
@@ -91,6 +131,10 @@ Json frame_message(const FrameReply& reply) {
     answers.push_back(std::move(answer));
   }
   return {{"type", "pvs"}, {"seq", reply.seq}, {"time", reply.time}, {"answers", std::move(answers)}};
+}
+
+std::string encoded_frame(const FrameReply& reply, Encoding encoding) {
+  return encoding == Encoding::cbor ? cbor_of(reply) : encoded(frame_message(reply), encoding);
 }
 
 WireError wire_error(const std::exception& fault) {

@@ -20,6 +20,8 @@ std::string encoded(const nlohmann::ordered_json& message, Encoding encoding);
 nlohmann::ordered_json opened_message(const Session& session, const SessionKey& key);
 /// "pvs", or "ok" for an answer that nobody wants.
 nlohmann::ordered_json frame_message(const FrameReply& reply);
+/// Its bytes. In CBOR they are written straight away, the same as encoded() would give.
+std::string encoded_frame(const FrameReply& reply, Encoding encoding);
 
 /// An error as clients see it.
 struct WireError {

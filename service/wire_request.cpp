@@ -81,29 +81,30 @@ std::optional<std::uint64_t> seq_of(const WireRequest& request) {
   }
 }
 
-FrameRequest read_frame_request(const WireRequest& request, int dimension) {
+void read_frame_request(const WireRequest& request, int dimension, FrameRequest& out) {
   const JsonRef root = request.root();
   root.only_keys({"type", "seq", "time", "set", "add", "remove", "viewers", "drop_viewers", "reply", "bulk", set_ids,
                   set_positions, set_positions64, set_headings, set_headings64, set_orientations, set_orientations64});
-  FrameRequest out;
   out.seq = root.at("seq").count();
-  if (const auto reply = root.find("reply")) out.reply = read_reply(*reply);
+  const auto reply = root.find("reply");
+  out.reply = reply ? read_reply(*reply) : ReplyKind::full;
+  out.bulk = false;
   if (const auto bulk = root.find("bulk")) {
     out.bulk = bulk->boolean();
     if (out.bulk && request.encoding() == Encoding::json) bulk->refuse("true in CBOR messages only");
   }
   try {
+    BulkMoves moves = std::move(out.frame.bulk);  // for its memory
     out.frame = read_frame(root, dimension);
-    std::vector<ObjectMove> moves = read_bulk_moves(root, dimension);
-    if (!moves.empty()) {
-      if (!out.frame.set.empty()) root.at("set").refuse_with("expected either \"set\" or \"set_ids\", found both");
-      out.frame.set = std::move(moves);
+    read_bulk_moves(root, dimension, moves);
+    if (!moves.ids.empty() && !out.frame.set.empty()) {
+      root.at("set").refuse_with("expected either \"set\" or \"set_ids\", found both");
     }
+    out.frame.bulk = std::move(moves);
   } catch (const Error& fault) {
     throw Error(fault.code() == ErrorCode::bad_message ? ErrorCode::bad_frame : fault.code(), fault.what());
   }
   out.frame.where = source;
-  return out;
 }
 
 SessionKey read_resume(const WireRequest& request) {

@@ -16,7 +16,7 @@ namespace gridcull {
 /// A message as it came. Refusals begin with "message: " and, where there is one, a JSON pointer and ": ".
 class WireRequest {
  public:
-  /// Throws Error(bad_message).
+  /// `bytes` outlives it. Throws Error(bad_message).
   WireRequest(std::string_view bytes, Encoding encoding);
 
   Encoding encoding() const { return encoding_; }
@@ -49,8 +49,8 @@ struct FrameRequest {
 };
 /// The number alone, so that a refusal of the rest can name it; none where there is no whole one.
 std::optional<std::uint64_t> seq_of(const WireRequest& request);
-/// Throws Error(bad_message) or Error(bad_frame).
-FrameRequest read_frame_request(const WireRequest& request, int dimension);
+/// `out` is reused; after a refusal it holds anything. Throws Error(bad_message) or Error(bad_frame).
+void read_frame_request(const WireRequest& request, int dimension, FrameRequest& out);
 
 struct SessionKey {
   std::string session{}, token{};

@@ -36,19 +36,32 @@ void read_list(const JsonRef& frame, std::string_view key, std::vector<T>& out, 
   refuse_repeated(items, ids);
 }
 
-template <class T, class Append>
-void append_list(std::string& out, std::string_view key, const std::vector<T>& list, const Append& append) {
-  if (list.empty()) return;
+template <class Append>
+void append_places(std::string& out, std::string_view key, std::size_t count, const Append& append) {
+  if (count == 0) return;
   append_key(out, key);
   out += '[';
-  for (const T& item : list) {
+  for (std::size_t i = 0; i < count; ++i) {
     append_comma(out);
-    append(item);
+    append(i);
   }
   out += ']';
 }
 
+template <class T, class Append>
+void append_list(std::string& out, std::string_view key, const std::vector<T>& list, const Append& append) {
+  append_places(out, key, list.size(), [&](std::size_t i) { append(list[i]); });
+}
+
 }  // namespace
+
+ObjectMove BulkMoves::at(std::size_t i) const {
+  ObjectMove move{.id = ids[i]};
+  if (positions) move.position = poses[i].position;
+  if (orientations) move.orientation = poses[i].orientation;
+  if (!headings.empty()) move.heading = headings[i];
+  return move;
+}
 
 Frame parse_frame(std::string_view line, int dimension, const std::string& where) {
   const JsonTree tree(line, where, ErrorCode::bad_frame);
@@ -83,7 +96,9 @@ std::string frame_text(const Frame& frame, int dimension) {
   const auto append_id = [&](std::uint32_t id) { append_integer(out, id); };
   append_list(out, "remove", frame.remove, append_id);
   append_list(out, "add", frame.add, [&](const SceneObject& object) { append_object(out, object, dimension); });
-  append_list(out, "set", frame.set, [&](const ObjectMove& move) { append_move(out, move, dimension); });
+  append_places(out, "set", frame.moves(), [&](std::size_t i) {
+    append_move(out, frame.set.empty() ? frame.bulk.at(i) : frame.set[i], dimension);
+  });
   append_list(out, "drop_viewers", frame.drop_viewers, append_id);
   append_list(out, "viewers", frame.viewers, [&](const ViewerUpdate& v) { append_viewer(out, v, dimension); });
   return out + "}";

@@ -21,6 +21,18 @@ struct ObjectMove {
   std::optional<double> heading{};  ///< radians, as given; orientation is turn_about_z() of it
 };
 
+/// Moves of many objects side by side, as the wire has them and as a culler takes them. Each names the same parts.
+struct BulkMoves {
+  std::vector<ObjectId> ids{};
+  std::vector<Pose> poses{};       ///< as many; of the parts that are not told nothing is read
+  std::vector<double> headings{};  ///< radians, as given; as many or, where none are told, empty
+  bool positions = false;
+  bool orientations = false;  ///< with headings: turn_about_z() of them
+
+  /// One of them, as it would stand in a list.
+  ObjectMove at(std::size_t i) const;
+};
+
 /// Makes a viewer or changes one; what is not named stays. `position` ends `follows`, `follows` ends
 /// `position`; at most one of the two is named.
 struct ViewerUpdate {
@@ -40,10 +52,15 @@ struct Frame {
   double time = 0.0;  ///< seconds, at most 1e12 in magnitude, greater than the last frame's
   std::vector<ObjectId> remove{};
   std::vector<SceneObject> add{};
-  std::vector<ObjectMove> set{};
+  std::vector<ObjectMove> set{};  ///< or in bulk
+  BulkMoves bulk{};               ///< from the wire only; then `set` is empty
   std::vector<ViewerId> drop_viewers{};
   std::vector<ViewerUpdate> viewers{};
   std::string where{};  ///< `file:line` for refusals; may be empty
+
+  /// How many objects it moves, in a list or in bulk, and which.
+  std::size_t moves() const { return set.empty() ? bulk.ids.size() : set.size(); }
+  ObjectId moved(std::size_t i) const { return set.empty() ? bulk.ids[i] : set[i].id; }
 };
 
 /// Where frames come from: a file, a generator.

@@ -78,6 +78,10 @@ class JsonTree::Builder final : public nlohmann::json_sax<nlohmann::json> {
     push(kind).text = {at, static_cast<std::uint32_t>(value.size())};
     return true;
   }
+  void bytes(std::string_view value) {
+    push(Kind::bytes).text = {static_cast<std::uint32_t>(value.data() - tree_.text_.data()),
+                              static_cast<std::uint32_t>(value.size())};
+  }
   bool leaf(Kind kind, double value) {
     push(kind).number = value;
     return true;
@@ -141,7 +145,7 @@ class JsonTree::FromCbor final : public CborSink {
   void integer(double value) override { builder_.leaf(Kind::integer, value); }
   void number(double value) override { builder_.leaf(Kind::number, value); }
   void text(std::string_view value) override { builder_.text(Kind::string, value); }
-  void bytes(std::string_view value) override { builder_.text(Kind::bytes, value); }
+  void bytes(std::string_view value) override { builder_.bytes(value); }
   void key(std::string_view value) override { builder_.set_key(value); }
   void start_array() override { builder_.open(Kind::array); }
   void start_map() override { builder_.open(Kind::object); }
@@ -152,7 +156,7 @@ class JsonTree::FromCbor final : public CborSink {
 };
 
 JsonTree::JsonTree(std::string_view text, std::string source, ErrorCode code, Encoding encoding)
-    : source_(std::move(source)), code_(code) {
+    : source_(std::move(source)), code_(code), text_(text) {
   if (text.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorCode::limit, source_ + ": expected at most 4 GiB of JSON");
   }
@@ -166,7 +170,6 @@ JsonTree::JsonTree(std::string_view text, std::string source, ErrorCode code, En
     return;
   }
   FromCbor sink(builder);
-  strings_.reserve(text.size());  // a message in bulk is little else
   if (const std::string fault = read_cbor(text, deepest, sink); !fault.empty()) {
     throw Error(ErrorCode::bad_message, source_ + ": expected CBOR: " + fault);
   }
@@ -271,7 +274,7 @@ std::string_view JsonRef::string() const {
 
 std::string_view JsonRef::bytes() const {
   if (node().kind != JsonTree::Kind::bytes) refuse("a byte string");
-  return std::string_view(tree_->strings_).substr(node().text.at, node().text.size);
+  return tree_->text_.substr(node().text.at, node().text.size);
 }
 
 Vec3 JsonRef::point(int dimension) const {

@@ -31,13 +31,13 @@ class JsonTree {
       double number;  ///< integer, number, boolean (0 or 1)
       struct {
         std::uint32_t at, size;
-      } text;  ///< string, bytes: in strings; array and object: size is the number of children
+      } text;  ///< string: in strings; bytes: in the text itself; array and object: size is the number of children
     };
   };
 
   /// Throws Error(bad_message) for text that is not JSON (CBOR: bytes that are no item with texts as keys) or nested
   /// deeper than 32, Error(`code`) for a number that no double holds. `source` stands at the front of refusals, `code`
-  /// is theirs.
+  /// is theirs. Byte strings are not copied: whoever reads them keeps `text` alive.
   JsonTree(std::string_view text, std::string source, ErrorCode code, Encoding encoding = Encoding::json);
 
   JsonRef root() const;
@@ -52,6 +52,7 @@ class JsonTree {
 
   std::string source_;
   ErrorCode code_;
+  std::string_view text_;
   std::vector<Node> nodes_{};
   std::string strings_{};
 };
@@ -84,7 +85,7 @@ class JsonRef {
   std::uint32_t id() const;                                            ///< an integer 0 .. 2^32 - 2
   bool boolean() const;
   std::string_view string() const;
-  /// A byte string; only CBOR has them.
+  /// A byte string, in the text that was parsed; only CBOR has them.
   std::string_view bytes() const;
   /// An array of `dimension` coordinates; z = 0 in 2D.
   Vec3 point(int dimension) const;

@@ -41,9 +41,10 @@ bool Replay::step() {
 }
 
 void Replay::note_places() {
-  for (const ObjectMove& move : current_.set) {
+  for (std::size_t i = 0; i < current_.moves(); ++i) {
     // An unknown id is refused by apply(); one that is added in this frame has no place before it.
-    before_.push_back(world_.has(move.id) ? world_.object(move.id).pose.position : Vec3(0.0));
+    const ObjectId id = current_.moved(i);
+    before_.push_back(world_.has(id) ? world_.object(id).pose.position : Vec3(0.0));
   }
 }
 
@@ -57,8 +58,14 @@ void Replay::feed_objects(double seconds) {
   }
   std::sort(added.begin(), added.end());
   moves_.clear();
-  for (std::size_t i = 0; i < current_.set.size(); ++i) {
-    if (added.empty() || !std::binary_search(added.begin(), added.end(), current_.set[i].id)) {
+  const BulkMoves& bulk = current_.bulk;
+  if (feed_ == Feed::push && added.empty() && bulk.positions && bulk.orientations) {
+    // Whole poses as they came: nobody has to look the objects up.
+    for (std::size_t i = 0; i < bulk.ids.size(); ++i) moves_.push_back({bulk.ids[i], bulk.poses[i]});
+    return culler_.move_all(moves_);
+  }
+  for (std::size_t i = 0; i < current_.moves(); ++i) {
+    if (added.empty() || !std::binary_search(added.begin(), added.end(), current_.moved(i))) {
       feed_move(world_.set_object(i), feed_ == Feed::pull ? before_[i] : Vec3(0.0), seconds);
     }
   }

@@ -56,8 +56,8 @@ class Replay final : private PositionSource {
   World world_;
   Frame current_{};
   std::uint64_t next_frame_ = 0;
-  std::vector<Vec3> before_{};  ///< pull: positions of current_.set before the frame
-  std::vector<Move> moves_{};    ///< push: of the frame in hand; pull: those of static objects
+  std::vector<Vec3> before_{};  ///< pull: where stood what current_ moves
+  std::vector<Move> moves_{};   ///< push: of the frame in hand; pull: those of static objects
   std::vector<View> views_{};
   Answers answers_{};
 };

@@ -13,10 +13,11 @@
 namespace gridcull {
 namespace {
 
+std::string source(const Frame& frame) { return (frame.where.empty() ? "frame" : frame.where) + ": "; }
+
 /// The place in a list of a frame, for a refusal.
 std::string at(const Frame& frame, std::string_view list, std::size_t i, std::string_view key = "") {
-  const std::string front = frame.where.empty() ? "frame" : frame.where;
-  return front + ": /" + std::string(list) + "/" + std::to_string(i) + std::string(key) + ": ";
+  return source(frame) + "/" + std::string(list) + "/" + std::to_string(i) + std::string(key) + ": ";
 }
 
 [[noreturn]] void refuse_unknown(const std::string& place, std::string_view what, std::uint32_t id) {
@@ -45,10 +46,20 @@ bool out_of_world(const Pose& base, const SceneViewer& viewer) {
   return largest(to_world(base, rotation_of(base.orientation), viewer.pose.position)) > edge_of_world;
 }
 
-/// Then none stands twice: the usual case of the longest list, found without a table.
-bool ids_ascend(const std::vector<ObjectMove>& moves) {
-  const auto not_less = [](const ObjectMove& a, const ObjectMove& b) { return a.id >= b.id; };
-  return std::adjacent_find(moves.begin(), moves.end(), not_less) == moves.end();
+/// Whether an object is moved twice. Ids that ascend, the usual case of the longest list, are seen without a table.
+bool moves_one_twice(const Frame& frame) {
+  bool ascending = true;
+  for (std::size_t i = 1; i < frame.moves(); ++i) ascending &= frame.moved(i - 1) < frame.moved(i);
+  if (ascending) return false;
+  std::vector<ObjectId> ids(frame.moves());
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = frame.moved(i);
+  std::sort(ids.begin(), ids.end());
+  return std::adjacent_find(ids.begin(), ids.end()) != ids.end();
+}
+
+void keep_farthest(double& farthest, const BulkMoves& bulk) {
+  if (!bulk.positions) return;
+  for (const Pose& pose : bulk.poses) farthest = std::max(farthest, largest(pose.position));
 }
 
 }  // namespace
@@ -58,6 +69,7 @@ struct World::Plan {
   std::unordered_set<ObjectId> removed{}, added{}, set{};
   std::unordered_set<ViewerId> dropped{};
   std::vector<SceneViewer> viewers{};  ///< after their updates
+  bool same_places = false;            ///< the frame moves what the last one moved, in the same order
   double farthest_object = 0.0, longest_offset = 0.0;
 };
 
@@ -108,13 +120,24 @@ void World::check_objects(const Frame& frame, Plan& plan) const {
     }
     plan.added.insert(object.id);
   }
-  const bool ascending = ids_ascend(frame.set);
-  for (std::size_t i = 0; i < frame.set.size(); ++i) {
-    const ObjectId id = frame.set[i].id;
-    const bool as_before = i < set_places_.size() && set_places_[i] < objects_.size() &&
-                           objects_[set_places_[i]].id == id && frame.remove.empty();
+  check_moves(frame, plan);
+}
+
+/// A simulator names its objects in the same order frame after frame: the last place is tried first.
+void World::check_moves(const Frame& frame, Plan& plan) const {
+  const std::size_t count = frame.moves();
+  std::size_t same = 0;
+  while (same < count && same_place(same, frame.moved(same))) ++same;
+  // Then they are as different as the last frame's.
+  plan.same_places = same == count && frame.remove.empty();
+  if (plan.same_places) return;
+  const bool twice = moves_one_twice(frame);
+  for (std::size_t i = 0; i < count; ++i) {
+    const ObjectId id = frame.moved(i);
+    const bool as_before = frame.remove.empty() && same_place(i, id);
     if (!as_before && !has_after(id, plan)) refuse_unknown(at(frame, "set", i, "/id"), "an object", id);
-    if (!ascending && !plan.set.insert(id).second) refuse_twice(at(frame, "set", i, "/id"), id);
+    if (!twice || plan.set.insert(id).second) continue;
+    refuse_twice(frame.set.empty() ? source(frame) + "/set_ids: " : at(frame, "set", i, "/id"), id);
   }
 }
 
@@ -151,10 +174,13 @@ Pose World::pose_after(ObjectId id, const Frame& frame) const {
   } else {
     out = object(id).pose;
   }
-  const auto moved = std::find_if(frame.set.begin(), frame.set.end(), [id](const ObjectMove& m) { return m.id == id; });
-  if (moved == frame.set.end()) return out;
-  if (moved->position) out.position = *moved->position;
-  if (moved->orientation) out.orientation = *moved->orientation;
+  for (std::size_t i = 0; i < frame.moves(); ++i) {
+    if (frame.moved(i) != id) continue;
+    const ObjectMove move = frame.set.empty() ? frame.bulk.at(i) : frame.set[i];
+    if (move.position) out.position = *move.position;
+    if (move.orientation) out.orientation = *move.orientation;
+    break;
+  }
   return out;
 }
 
@@ -167,6 +193,7 @@ void World::check_viewpoints(const Frame& frame, Plan& plan) const {
   for (const ObjectMove& move : frame.set) {
     if (move.position) plan.farthest_object = std::max(plan.farthest_object, largest(*move.position));
   }
+  keep_farthest(plan.farthest_object, frame.bulk);
   for (const SceneViewer& viewer : plan.viewers)
     plan.longest_offset = std::max(plan.longest_offset, length_of_offset(viewer));
   if (plan.farthest_object + plan.longest_offset <= edge_of_world) return;
@@ -180,14 +207,14 @@ void World::check_viewpoints(const Frame& frame, Plan& plan) const {
   for (const auto& [id, viewer] : viewers_) {
     const auto same = [id = id](const SceneViewer& v) { return v.id == id; };
     if (plan.dropped.contains(id) || std::any_of(plan.viewers.begin(), plan.viewers.end(), same)) continue;
-    check(viewer, (frame.where.empty() ? std::string("frame") : frame.where) + ": ");
+    check(viewer, source(frame));
   }
 }
 
 void World::apply(const Frame& frame) {
   if (time_ && !(frame.time > *time_)) {
-    std::string text = frame.where.empty() ? "frame" : frame.where;
-    append_number(text += ": /time: expected a time after ", *time_);
+    std::string text = source(frame);
+    append_number(text += "/time: expected a time after ", *time_);
     append_number(text += ", found ", frame.time);
     throw Error(ErrorCode::bad_frame, text);
   }
@@ -201,29 +228,45 @@ void World::apply(const Frame& frame) {
   longest_offset_ = plan.longest_offset;
   for (const ObjectId id : frame.remove) erase(id);
   for (const SceneObject& object : frame.add) insert(object.object);
-  find_set(frame);
+  if (!plan.same_places) find_set(frame);
+  set_places_.resize(frame.moves());
+  move_objects(frame);
+  for (const ViewerId id : frame.drop_viewers) viewers_.erase(id);
+  for (SceneViewer& viewer : plan.viewers) viewers_.insert_or_assign(viewer.id, std::move(viewer));
+}
+
+void World::find_set(const Frame& frame) {
+  set_places_.resize(frame.moves(), objects_.size());
+  for (std::size_t i = 0; i < set_places_.size(); ++i) {
+    if (!same_place(i, frame.moved(i))) set_places_[i] = index_.at(frame.moved(i));
+  }
+}
+
+void World::move_objects(const Frame& frame) {
   for (std::size_t i = 0; i < frame.set.size(); ++i) {
     const ObjectMove& move = frame.set[i];
     Pose& pose = objects_[set_places_[i]].pose;
     if (move.position) pose.position = *move.position;
     if (move.orientation) pose.orientation = *move.orientation;
   }
-  for (const ViewerId id : frame.drop_viewers) viewers_.erase(id);
-  for (SceneViewer& viewer : plan.viewers) viewers_.insert_or_assign(viewer.id, std::move(viewer));
-}
-
-/// A simulator names its objects in the same order frame after frame: the last place is tried first.
-void World::find_set(const Frame& frame) {
-  set_places_.resize(frame.set.size(), objects_.size());
-  for (std::size_t i = 0; i < frame.set.size(); ++i) {
-    std::size_t& place = set_places_[i];
-    if (place >= objects_.size() || objects_[place].id != frame.set[i].id) place = index_.at(frame.set[i].id);
+  const BulkMoves& bulk = frame.bulk;
+  constexpr std::size_t ahead = 16;  // nothing is read that says where the next ones are: they can be fetched before
+  for (std::size_t i = 0; i < bulk.ids.size(); ++i) {
+    if (i + ahead < bulk.ids.size()) {
+      const Pose& later = objects_[set_places_[i + ahead]].pose;
+      __builtin_prefetch(&later, 1);
+      __builtin_prefetch(&later.orientation.z, 1);
+    }
+    Pose& pose = objects_[set_places_[i]].pose;
+    if (bulk.positions) pose.position = bulk.poses[i].position;
+    if (bulk.orientations) pose.orientation = bulk.poses[i].orientation;
   }
 }
 
 void World::insert(const Object& object) {
   index_.emplace(object.id, objects_.size());
   objects_.push_back(object);
+  ids_.push_back(object.id);
   farthest_object_ = std::max(farthest_object_, largest(object.pose.position));
 }
 
@@ -233,9 +276,11 @@ void World::erase(ObjectId id) {
   index_.erase(place);
   if (hole + 1 != objects_.size()) {
     objects_[hole] = std::move(objects_.back());
-    index_[objects_[hole].id] = hole;
+    ids_[hole] = ids_.back();
+    index_[ids_[hole]] = hole;
   }
   objects_.pop_back();
+  ids_.pop_back();
 }
 
 const Object& World::object(ObjectId id) const {

@@ -33,7 +33,7 @@ class World {
   bool has(ObjectId id) const { return index_.contains(id); }
   /// Throws Error(unknown_object).
   const Object& object(ObjectId id) const;
-  /// The object that the last applied frame's set[i] named; valid until the next apply().
+  /// The object that the last applied frame's i-th move named; valid until the next apply().
   const Object& set_object(std::size_t i) const { return objects_[set_places_[i]]; }
 
   /// The viewers' questions in viewer-id order. A viewer whose object is gone is left out until it is back.
@@ -46,7 +46,12 @@ class World {
  private:
   struct Plan;
   void find_set(const Frame& frame);
+  void move_objects(const Frame& frame);
   void check_objects(const Frame& frame, Plan& plan) const;
+  void check_moves(const Frame& frame, Plan& plan) const;
+  bool same_place(std::size_t i, ObjectId id) const {
+    return i < set_places_.size() && set_places_[i] < ids_.size() && ids_[set_places_[i]] == id;
+  }
   void check_viewers(const Frame& frame, Plan& plan) const;
   void check_viewpoints(const Frame& frame, Plan& plan) const;
   Pose pose_after(ObjectId id, const Frame& frame) const;
@@ -57,11 +62,12 @@ class World {
   int dimension_;
   std::optional<double> time_{};
   std::vector<Object> objects_{};
+  std::vector<ObjectId> ids_{};  ///< of objects_, close together: each move of a frame looks its own up
   std::unordered_map<ObjectId, std::size_t> index_{};  ///< id -> place in objects_; looked up, never walked
   std::map<ViewerId, SceneViewer> viewers_{};
   // No viewpoint can leave the world's 1e9 m while their sum does not; both only grow.
   double farthest_object_ = 0.0, longest_offset_ = 0.0;  ///< metres
-  std::vector<std::size_t> set_places_{};                ///< in objects_, of the last frame's set
+  std::vector<std::size_t> set_places_{};                ///< in objects_, of the last frame's moves
 };
 
 }  // namespace gridcull

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -36,6 +37,30 @@ TEST_CASE("trigonometry: within 2 ulp of the C library, on the unit circle, odd 
     }
   }
   CHECK(std::isfinite(stable_sincos(1e300).sin));
+}
+
+TEST_CASE("trigonometry: many angles at a time give the bits of one at a time") {
+  std::mt19937_64 random(5);
+  std::vector<double> angles{0.0, -0.0, 5e-324, -5e-324, 1e5, -1e5, 0.25 * std::numbers::pi, -0.25 * std::numbers::pi};
+  // Where the quarter changes, and on both sides of it.
+  for (int i = -2000; i < 2000; ++i) {
+    const double middle = i * (0.25 * std::numbers::pi);
+    for (const double a : {middle, std::nextafter(middle, 1e9), std::nextafter(middle, -1e9)}) angles.push_back(a);
+  }
+  for (const double span : {1e-300, 1e-3, 1.0, 10.0, 1e5}) {
+    std::uniform_real_distribution<double> angle(-span, span);
+    for (int i = 0; i < 3000; ++i) angles.push_back(angle(random));
+  }
+  angles.push_back(1e9);  // its neighbours take the other way too
+  std::vector<SinCos> out(angles.size());
+  stable_sincos(angles, out);
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const SinCos one = stable_sincos(angles[i]);
+    differing += std::bit_cast<std::uint64_t>(one.sin) != std::bit_cast<std::uint64_t>(out[i].sin) ||
+                 std::bit_cast<std::uint64_t>(one.cos) != std::bit_cast<std::uint64_t>(out[i].cos);
+  }
+  CHECK(differing == 0);
 }
 
 TEST_CASE("pose: turns about z, headings and composition") {

@@ -27,7 +27,7 @@ class RemoteSight final : public Sight {
     rest.set.clear();
     told.rest = nlohmann::json::parse(frame_text(rest, dimension_));
     answers_.views.clear();
-    for (auto& [viewer, visible] : client_.frame(told)) answers_.views.push_back({viewer, std::move(visible)});
+    for (const auto& [viewer, visible] : client_.frame(told)) answers_.views.push_back({viewer, visible});
     return answers_;
   }
 

@@ -47,6 +47,8 @@ void Connection::accept(const Request& request) {
   stream_.set_option(limits);
   // Messages are limited here, so that the refusal can say so.
   stream_.read_message_max(0);
+  // One answer, one frame, one call of the system.
+  stream_.auto_fragment(false);
   stream_.async_accept(request, [self = shared_from_this()](beast::error_code fault) {
     if (!fault) self->read();
   });
@@ -55,7 +57,9 @@ void Connection::accept(const Request& request) {
 void Connection::read() {
   if (reading_ || ended_ || closing_ || outgoing_.size() >= patience) return;
   reading_ = true;
-  stream_.async_read_some(incoming_, 1 << 16, [self = shared_from_this()](beast::error_code fault, std::size_t) {
+  // As much as there is room for from the messages before; memory grows with what is there, not with what is announced.
+  const std::size_t most = std::max(least_read, incoming_.capacity() - incoming_.size());
+  stream_.async_read_some(incoming_, most, [self = shared_from_this()](beast::error_code fault, std::size_t) {
     self->reading_ = false;
     self->on_read(fault);
   });
@@ -107,7 +111,10 @@ void Connection::finish_message() {
   incoming_.consume(incoming_.size());
   count_incoming();
   // What a huge message took is given back.
-  if (incoming_.capacity() > (1u << 20)) incoming_ = {};
+  if (incoming_.capacity() > (1u << 20)) {
+    incoming_ = {};
+    frame_ = {};
+  }
   read();
 }
 
@@ -163,11 +170,11 @@ void Connection::apply_frame(const WireRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   const std::unique_lock lock = use_session();
   Session& session = held_->session;
-  FrameRequest frame = read_frame_request(request, session.dimension());
-  const bool is_new = frame.seq != session.seq();
+  read_frame_request(request, session.dimension(), frame_);
+  const bool is_new = frame_.seq != session.seq();
   Bytes bytes;
   try {
-    bytes = std::make_shared<const std::string>(encoded(frame_message(session.apply(std::move(frame))), encoding_));
+    bytes = std::make_shared<const std::string>(encoded_frame(session.apply(frame_), encoding_));
   } catch (...) {
     // The refusal goes out first.
     failed_ = session.broken();

@@ -64,6 +64,8 @@ class Connection final : public SessionListener, public std::enable_shared_from_
   };
   /// Answers that wait to be taken before the next message is read.
   static constexpr std::size_t patience = 4;
+  /// Bytes that are read at a time, at least.
+  static constexpr std::size_t least_read = 1 << 16;
   /// What a watcher may be behind.
   static constexpr std::size_t watch_backlog = 64;
   /// Greatest messages' worth of unfinished ones, of all connections.
@@ -106,6 +108,7 @@ class Connection final : public SessionListener, public std::enable_shared_from_
   boost::asio::steady_timer stalled_, again_;
   boost::beast::flat_buffer incoming_;
   std::deque<Outgoing> outgoing_;
+  FrameRequest frame_;                  // kept for its memory
   Encoding encoding_ = Encoding::json;  // of the message in hand
   bool writing_ = false, reading_ = false;
   std::optional<boost::beast::websocket::close_reason> closing_;  // when all is written

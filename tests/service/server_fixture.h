@@ -1,8 +1,11 @@
 // A real server in threads of its own, on a free port, and plain ways to talk to it.
 #pragma once
 
+#include <chrono>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>  // before Asio: Boost 1.74 does not include it in C++20
 
 #include <boost/asio/connect.hpp>
@@ -18,6 +21,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gridcull/service/server/background_server.h"
+#include "gridcull/sim/generate.h"
 
 namespace gridcull::test {
 
@@ -99,5 +103,32 @@ class RawSocket {
   boost::asio::io_context context_;
   beast::websocket::stream<Tcp::socket> stream_;
 };
+
+inline std::unique_ptr<Generator> world_of(const std::string& kind, int frames) {
+  GenerateOptions options;
+  options.count = 40;
+  options.viewers = 4;
+  options.blocks = 3;
+  options.range = 60.0;
+  options.frames = frames;
+  return make_generator(kind, options);
+}
+
+inline Json open_message(int frames = 1) {
+  return {{"type", "open"}, {"scene", Json::parse(scene_text(world_of("town", frames)->scene()))}};
+}
+
+inline Json frame_message(std::uint64_t seq) {
+  return {{"type", "frame"}, {"seq", seq}, {"time", static_cast<double>(seq)}};
+}
+
+/// Whether the metrics say so within some seconds.
+inline bool becomes(std::uint16_t port, const std::string& line) {
+  for (int i = 0; i < 100; ++i) {
+    if (http_get(port, "/metrics").body.find("\n" + line + "\n") != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
 
 }  // namespace gridcull::test

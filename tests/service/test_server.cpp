@@ -22,22 +22,6 @@ using namespace gridcull::test;
 
 namespace {
 
-std::unique_ptr<Generator> world_of(const std::string& kind, int frames) {
-  GenerateOptions options;
-  options.count = 40;
-  options.viewers = 4;
-  options.blocks = 3;
-  options.range = 60.0;
-  options.frames = frames;
-  return make_generator(kind, options);
-}
-
-Json open_message(int frames = 1) {
-  return {{"type", "open"}, {"scene", Json::parse(scene_text(world_of("town", frames)->scene()))}};
-}
-
-Json frame_message(std::uint64_t seq) { return {{"type", "frame"}, {"seq", seq}, {"time", static_cast<double>(seq)}}; }
-
 /// What the client says about a generated world, against a replay in this process.
 void check_client(const std::string& kind, Client::Reply reply) {
   CAPTURE(kind);
@@ -210,111 +194,6 @@ TEST_CASE("pages from elsewhere may not connect, unless they are named") {
   CHECK_NOTHROW(RawSocket(server.port(), "http://localhost:" + std::to_string(server.port())));
 }
 
-TEST_CASE("nothing that a client sends harms another") {
-  ServerOptions options;
-  options.max_message = 200'000;
-  RunningServer server(options);
-  RawSocket good(server.port());
-  good.ask(open_message());
-  std::uint64_t seq = 0;
-  const auto good_lives = [&] { CHECK(good.ask(frame_message(++seq)).at("type") == "pvs"); };
-  const auto refused = [&](std::string_view bytes, bool text, const char* code) {
-    RawSocket bad(server.port());
-    bad.send_bytes(bytes, text);
-    const Json answer = bad.receive();
-    CHECK(answer.at("type") == "error");
-    CHECK(answer.at("code") == code);
-    CHECK(bad.ask(Json{{"type", "none"}}).at("code") == "bad_message");  // and goes on
-    good_lives();
-  };
-  SUBCASE("JSON 10,000 deep") { refused(std::string(10'000, '['), true, "bad_message"); }
-  SUBCASE("CBOR of nested chunks") { refused(std::string(100'000, '\x7f'), false, "bad_message"); }
-  SUBCASE("CBOR whose lengths lie") {
-    refused("\xa1\x64type\x7b\x7f\xff\xff\xff\xff\xff\xff\xff", false, "bad_message");
-  }
-  SUBCASE("nothing") { refused("", true, "bad_message"); }
-  SUBCASE("a frame without a session") { refused(frame_message(1).dump(), true, "sequence"); }
-  SUBCASE("text that is not UTF-8") {
-    RawSocket bad(server.port());
-    bad.send_bytes("\"\xff\xfe\"");
-    CHECK(bad.wait_for_close() == 1007);
-    good_lives();
-  }
-  SUBCASE("every truncation of a valid message") {
-    Json open = open_message();
-    open["scene"]["objects"].erase(open["scene"]["objects"].begin() + 3, open["scene"]["objects"].end());
-    open["scene"]["viewers"] = Json::array();
-    const std::string text = open.dump();
-    const std::vector<std::uint8_t> cbor = Json::to_cbor(open);
-    RawSocket bad(server.port());
-    for (std::size_t n = 0; n < text.size(); ++n) {
-      bad.send_bytes(std::string_view(text).substr(0, n));
-      REQUIRE(bad.receive().at("code") == "bad_message");
-    }
-    for (std::size_t n = 0; n < cbor.size(); ++n) {
-      bad.send_bytes(std::string_view(reinterpret_cast<const char*>(cbor.data()), n), false);
-      REQUIRE(bad.receive().at("code") == "bad_message");
-    }
-    CHECK(bad.ask(open).at("type") == "opened");
-    good_lives();
-  }
-  SUBCASE("a message over the limit") {
-    RawSocket bad(server.port());
-    bad.send_bytes(std::string(300'000, ' '));
-    CHECK(bad.receive().at("code") == "limit");
-    CHECK(bad.wait_for_close() == 1009);
-    good_lives();
-  }
-  SUBCASE("a gigabyte announced, of which a little comes") {
-    RawSocket bad(server.port());
-    const std::string head("\x82\xff\0\0\0\0\x40\0\0\0abcd", 14);  // binary, masked, 2^30 bytes
-    boost::asio::write(bad.socket(), boost::asio::buffer(head));
-    boost::asio::write(bad.socket(), boost::asio::buffer(std::string(250'000, 'x')));
-    CHECK(bad.receive().at("code") == "limit");
-    good_lives();
-  }
-  SUBCASE("a client that goes in the middle of a message") {
-    for (int i = 0; i < 20; ++i) {
-      RawSocket bad(server.port());
-      const std::string head("\x81\xfe\x01\0abcd{\"type", 14);
-      boost::asio::write(bad.socket(), boost::asio::buffer(head));
-      bad.drop();
-    }
-    good_lives();
-  }
-  SUBCASE("bytes that are no HTTP") {
-    boost::asio::io_context context;
-    for (int i = 0; i < 20; ++i) {
-      Tcp::socket socket = connected(context, server.port());
-      boost::asio::write(socket, boost::asio::buffer(std::string("\x16\x03\x01\x02\0 garbage\r\n\r\n", 17)));
-    }
-    good_lives();
-  }
-  CHECK(http_get(server.port(), "/healthz").status == 200);
-}
-
-TEST_CASE("a flood of connections is cut off; those that are there go on") {
-  ServerOptions options;
-  options.max_connections = 20;
-  RunningServer server(options);
-  RawSocket good(server.port());
-  good.ask(open_message());
-  boost::asio::io_context context;
-  std::vector<Tcp::socket> flood;
-  for (int i = 0; i < 300; ++i) flood.push_back(connected(context, server.port()));
-  CHECK(good.ask(frame_message(1)).at("type") == "pvs");
-  flood.clear();
-  bool back = false;
-  for (int i = 0; i < 50 && !back; ++i) {
-    try {
-      back = http_get(server.port(), "/healthz").status == 200;
-    } catch (const boost::system::system_error&) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-  }
-  CHECK(back);
-}
-
 TEST_CASE("many sessions at once answer as one alone does") {
   ServerOptions options;
   options.threads = 4;
@@ -336,34 +215,6 @@ TEST_CASE("many sessions at once answer as one alone does") {
   for (std::thread& client : clients) client.join();
   CHECK(answered == 240);
   CHECK(wrong == 0);
-}
-
-TEST_CASE("a watcher that does not read is let go; the session does not notice") {
-  RunningServer server;
-  RawSocket client(server.port());
-  const Json opened = client.ask(open_message());
-  RawSocket watcher(server.port());
-  watcher.ask({{"type", "watch"}, {"session", opened.at("session")}});
-  // Frames full of moves, so that the sockets' own buffers fill.
-  Json moves = Json::array();
-  const Json open = open_message();
-  for (const Json& object : open["scene"]["objects"]) {
-    moves.push_back({{"id", object["id"]}, {"position", object["position"]}});
-  }
-  std::uint64_t seq = 0;
-  bool closed = false;
-  while (!closed && seq < 5000) {
-    Json frame = frame_message(++seq);
-    frame["set"] = moves;
-    REQUIRE(client.ask(frame).at("type") == "pvs");
-    if (seq % 100 == 0) {
-      closed = http_get(server.port(), "/metrics").body.find("\ngridcull_slow_connections_closed_total 1\n") !=
-               std::string::npos;
-    }
-  }
-  CHECK(closed);
-  CHECK(watcher.wait_for_close() == 1013);
-  CHECK(watcher.close_reason() == "too slow to watch");
 }
 
 TEST_CASE("a watcher sees the world, each frame, what a viewer's walk met, and why") {
