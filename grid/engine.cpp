@@ -87,6 +87,7 @@ void GridEngine::query(double time, std::span<const View> views, Answers& out) {
   s.before = s.now;
   s.now = time;
   ++s.world.frame;
+  if (s.world.silhouettes) s.world.silhouettes->index.begin_frame();
   s.world.positions_read = 0;
   s.stats = {};
   s.settle_jumps(time);

@@ -40,6 +40,9 @@ void GridEngine::State::expire() {
     for (std::size_t i = 0; i < expired.size(); ++i) {
       // Hidden objects are many and seldom touched: ask for their memory some objects ahead.
       if (i + ahead < expired.size()) world.prefetch(expired[i + ahead]);
+      if (world.silhouettes && i + ahead / 2 < expired.size()) {
+        world.silhouettes->index.prefetch_node(expired[i + ahead / 2]);
+      }
       world.read_alone(expired[i]);
     }
   } catch (...) {

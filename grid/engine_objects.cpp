@@ -249,12 +249,24 @@ bool GridEngine::State::lengthen_term(Slot slot) {
   ObjectState& state = world.objects[slot];
   const double max_speed = world.objects.max_speed(slot);
   if (!(max_speed > 0.0)) return false;
-  const auto longer = static_cast<float>(terms.longer(state.term, max_speed));
+  const SilhouetteWorld* shapes = world.silhouettes.get();
+  const double widest = shapes != nullptr ? 0.5 * shapes->index.side(shapes->index.top()) : terms.widest();
+  const auto longer = static_cast<float>(terms.longer(state.term, max_speed, widest));
   if (!(longer > state.term)) return false;
   const TbvMatrix::Ball grown{world.objects.pose(slot).position, TbvTerm::radius(max_speed, longer, state.reach)};
-  if (!world.silhouettes && (!world.tbv.fits(grown) || world.near_seen(grown))) return false;
+  if (shapes != nullptr ? !looks_deep({grown.centre, grown.radius})
+                        : !world.tbv.fits(grown) || world.near_seen(grown)) {
+    return false;
+  }
   state.term = longer;
   return true;
+}
+
+// Wider volumes hang in coarser nodes, which reach farther towards the viewers: once those are opened, everything in
+// them is looked at in every frame.
+bool GridEngine::State::looks_deep(const LooseBall& ball) const {
+  const LooseIndex& index = world.silhouettes->index;
+  return index.takes(ball) && !index.lately_opened(ball);
 }
 
 TbvMatrix::Ball GridEngine::State::volume(Slot slot) const {

@@ -81,6 +81,8 @@ struct GridEngine::State {
   TbvMatrix::Ball volume(Slot slot) const;
   /// Doubles the object's term if the volume it then gets stays clear of what somebody sees.
   bool lengthen_term(Slot slot);
+  /// Method `silhouette`: whether a volume would hang where nobody looks.
+  bool looks_deep(const LooseBall& ball) const;
   void take_volume(Slot slot);
   void leave_grid(Slot slot);
   /// The object's cells no longer come from tiles.

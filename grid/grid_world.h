@@ -56,7 +56,11 @@ struct GridWorld {
   /// Hints that a hidden object will be read and its volume renewed soon.
   void prefetch(Slot slot) const {
     objects.prefetch(slot);
-    tbv.prefetch(slot);
+    if (silhouettes) {
+      silhouettes->index.prefetch(slot);
+    } else {
+      tbv.prefetch(slot);
+    }
   }
 
   /// The object's pose in this frame: asked from the source once a frame, counted. Any thread.

@@ -42,6 +42,7 @@ LooseIndex::LooseIndex(int dimension, const Bounds& box, double side) : dimensio
     levels_.push_back(
         {(fine.nx + 1) >> 1, (fine.ny + 1) >> 1, (fine.nz + 1) >> 1, 2.0 * fine.side, 0.5 * fine.inverse_side});
   }
+  opened_.resize(levels_.size());
 }
 
 void LooseIndex::reserve(std::size_t count) {
@@ -93,7 +94,9 @@ Bounds LooseIndex::loose_box(const NodeId& id) const {
 void LooseIndex::use_level(int level) {
   for (int l = level; l <= top(); ++l) {
     Level& used = levels_[static_cast<std::size_t>(l)];
-    if (used.nodes.empty()) used.nodes.resize(used.node_count(dimension_));
+    if (!used.nodes.empty()) continue;
+    used.nodes.resize(used.node_count(dimension_));
+    opened_[static_cast<std::size_t>(l)].resize(used.nodes.size());
   }
 }
 
@@ -177,7 +180,7 @@ void LooseIndex::remember(Slot slot, LooseBall ball) {
 
 std::uint64_t LooseIndex::node_bytes() const {
   std::uint64_t bytes = 0;
-  for (const Level& level : levels_) bytes += level.nodes.capacity() * sizeof(Node);
+  for (const Level& level : levels_) bytes += level.nodes.capacity() * (sizeof(Node) + sizeof(std::uint32_t));
   return bytes;
 }
 

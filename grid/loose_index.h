@@ -10,6 +10,7 @@
 // did not. Memory: 8 bytes a node of the levels in use, 28 an object and 43 to 128 for its ball.
 #pragma once
 
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -126,6 +127,21 @@ class LooseIndex {
       first = chunk.next;
     }
   }
+  /// Walks say which nodes' rows they looked at, for whoever chooses where to hang a ball: a note beside the content,
+  /// which any thread may make at any time; all write the same value. `begin_frame`: from now on notes are of a new
+  /// frame.
+  void begin_frame() { ++frame_; }
+  void note_opened(const NodeId& id) const {
+    const auto level = static_cast<std::size_t>(id.level);
+    std::atomic_ref(opened_[level][levels_[level].index(id, dimension_)]).store(frame_, std::memory_order_relaxed);
+  }
+  /// Whether the node that a ball (takes(ball)) would hang in was opened in this frame or one of the last few.
+  bool lately_opened(const LooseBall& ball) const {
+    const NodeId id = node_of(ball.centre, level_for(ball.radius));
+    const auto level = static_cast<std::size_t>(id.level);
+    return !opened_[level].empty() && frame_ - opened_[level][levels_[level].index(id, dimension_)] <= lately;
+  }
+
   /// Hints that the slot will be asked for soon.
   void prefetch(Slot slot) const { __builtin_prefetch(&entries_[slot]); }
   void prefetch_ball(Slot slot) const {
@@ -151,6 +167,7 @@ class LooseIndex {
 
  private:
   static constexpr std::uint8_t nowhere = 255;
+  static constexpr std::uint32_t lately = 8;  // frames
   struct Entry {
     BallRows::Place place = none;
     std::uint32_t node = none;         // index in its level
@@ -177,8 +194,8 @@ class LooseIndex {
     }
   };
 
-  double inverse_side(int level) const { return levels_[static_cast<std::size_t>(level)].inverse_side; }
   int level_for(double radius) const;
+  double inverse_side(int level) const { return levels_[static_cast<std::size_t>(level)].inverse_side; }
   bool sparse(int level) const;
   NodeId node_of(const Vec3& centre, int level) const;
   void use_level(int level);
@@ -201,6 +218,8 @@ class LooseIndex {
   double margin_;  // metres: covers the rounding of node_of()
   double inverse_side_;
   std::vector<Level> levels_;
+  mutable std::vector<std::vector<std::uint32_t>> opened_;  // by level and node: the last frame in which it was opened
+  std::uint32_t frame_ = lately + 1;                        // so that at first no node was opened lately
   std::vector<Entry> entries_;
   BallRows rows_;
   std::uint32_t remembered_ = none;  // the row of those that are remembered

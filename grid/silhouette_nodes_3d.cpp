@@ -65,6 +65,7 @@ void Silhouette3D::open_node(LooseIndex::NodeId id) {
     return;
   }
   ++answer_->work.cells_visited;
+  index.note_opened(id);
   if (drawing_) walked_.opened.push_back(id);
   index.each(node.first, [this](const BallRows::Item& item, BallRows::Place) { prefetch_ball(item); });
   index.each(node.first, [this](const BallRows::Item& item, BallRows::Place place) { push_entry(item, place); });
@@ -128,6 +129,7 @@ void Silhouette3D::look_at_group(const Group& group) {
 
 void Silhouette3D::push_entries(const Group& group) {
   ++answer_->work.cells_visited;
+  shapes_->index.note_opened(group.node);
   if (drawing_) walked_.opened.push_back(group.node);
   for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
     const Entry& entry = entries_[i];

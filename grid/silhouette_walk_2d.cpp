@@ -49,6 +49,7 @@ void SilhouetteWalk2D::take(const Spot& spot, const LooseIndex::Node& node) {
   const double square = glm::dot(d, d);
   if (square > limit_ * limit_) return;
   if (node.below <= crowd) {
+    if (node.below > 0) index_->note_opened(spot.id);
     if (noted_ != nullptr && node.below > 0) noted_->opened.push_back(spot.id);
     gather(spot.id, node);
   } else {
@@ -66,6 +67,7 @@ void SilhouetteWalk2D::open(std::uint32_t at, const Silhouettes2D& silhouettes, 
     return;
   }
   ++work.cells_visited;
+  index_->note_opened(spot.id);
   add_row(index_->node(spot.id).first);
   const LooseIndex::Node* children = spot.id.level > 0 ? index_->children(spot.id) : nullptr;
   const double side = index_->side(spot.id.level);

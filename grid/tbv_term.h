@@ -12,13 +12,16 @@ namespace gridcull {
 
 /// A term is the longest validity that an object's next volume may get. It starts where the object could move
 /// one cell (more where nobody looks), doubles when a volume expires unseen, halves when it is revealed, and
-/// stays between a quarter of a cell and `widest` cells of possible movement.
+/// stays between a quarter of a cell and the widest that the index of volumes takes of possible movement.
 class TbvTerm {
  public:
   explicit TbvTerm(double cell) : cell_(cell) {}
 
   double first(double max_speed) const { return cell_ / max_speed; }
-  double longer(double term, double max_speed) const { return std::min(2.0 * term, widest * cell_ / max_speed); }
+  /// `most`: metres that a volume may grow beyond the object.
+  double longer(double term, double max_speed, double most) const { return std::min(2.0 * term, most / max_speed); }
+  /// The most of method `voxel`, whose T is made for volumes of some cells.
+  double widest() const { return 3.0 * cell_; }
   double shorter(double term, double max_speed) const { return std::max(0.5 * term, 0.25 * cell_ / max_speed); }
 
   /// Seconds the next volume is valid, by a hash of the slot and of how many volumes it had, so that objects that
@@ -41,7 +44,6 @@ class TbvTerm {
   }
 
  private:
-  static constexpr double widest = 3.0;  // cells
   double cell_;
 };
 
