@@ -115,37 +115,45 @@ TEST_CASE("moves told together are moves told one by one, and one that is refuse
 TEST_CASE("an object that creeps is met where it is, however small its steps") {
   for (const bool pulls : {false, true}) {
     CAPTURE(pulls);
-    GridEngine engine(options(3, Hiding::silhouette, TbvMode::off));
+    GridOptions small = options(3, Hiding::silhouette, TbvMode::off);
+    small.bounds = {{0, 0, 0}, {40, 40, 12}};
+    GridEngine engine(small);
     Random random(5);
     ProbedWorld source;
-    std::vector<Object> objects;
-    for (ObjectId id = 0; id < 300; ++id) {
-      objects.push_back(
-          make_object(id, Sphere{0.2 + 0.01 * (id % 20)}, {random.uniform(0, 60), random.uniform(0, 60), 10}, 5.0));
-      engine.add(objects.back());
+    // A crowd behind a wall, whose nodes are hidden as nodes.
+    std::vector<Object> objects{make_static(0, Cuboid{{2, 14, 20}}, {16, 20, 6})};
+    for (ObjectId id = 1; id <= 1000; ++id) {
+      const Vec3 place(random.uniform(20, 24), random.uniform(16, 22), random.uniform(5, 7));
+      objects.push_back(make_object(id, Sphere{0.2 + 0.01 * (id % 20)}, place, 5.0));
       source.poses[id] = objects.back().pose;
     }
+    for (const Object& o : objects) engine.add(o);
     if (pulls) engine.set_source(&source);
+    std::size_t hidden_at_first = 0;
     for (int frame = 0; frame < 120; ++frame) {
       CAPTURE(frame);
-      // All one way, so that what is not followed ends far from its place in the index.
+      // All one way, out of the wall's shadow, each at its own pace.
       std::vector<Move> moves;
       for (Object& o : objects) {
-        o.pose.position.x += 0.002 * (1 + o.id % 50);
+        if (o.is_static) continue;
+        o.pose.position.y += 0.002 * (1 + o.id % 50);
         source.poses[o.id] = o.pose;
         moves.push_back({o.id, o.pose});
       }
       if (!pulls) engine.move_all(moves);
-      View narrow = make_view(1, {-1, 30, 10});
+      View narrow = make_view(1, {-1, 20, 6});
       narrow.frustum.emplace();
-      const std::vector<View> views{narrow, make_view(2, {61, 20, 10})};
+      const std::vector<View> views{narrow, make_view(2, {5, 20, 6})};
       Answers answers, expected;
       engine.query(0.03 * (frame + 1), views, answers);
-      GridEngine fresh(options(3, Hiding::silhouette, TbvMode::off));
+      GridEngine fresh(small);
       for (const Object& o : objects) fresh.add(o);
       fresh.query(1.0, views, expected);
       for (std::size_t i = 0; i < views.size(); ++i) CHECK(answers.views[i].visible == expected.views[i].visible);
+      if (frame == 0) hidden_at_first = objects.size() - answers.views[0].visible.size();
+      if (frame == 119) CHECK(answers.views[0].visible.size() > 50);
     }
+    CHECK(hidden_at_first > 990);
   }
 }
 
