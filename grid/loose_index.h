@@ -7,7 +7,7 @@
 // empty space is skipped, and the eight (2D: four) children of a node share a cache line.
 //
 // Cost: placing an object is a division by the side and a compare when it stayed in its node; a few stores when it
-// did not. Memory: 8 bytes a node of the levels in use, 28 an object and 43 to 128 for its ball.
+// did not. Memory: 12 bytes a node of the levels in use, 28 an object and 43 to 128 for its ball.
 #pragma once
 
 #include <atomic>

@@ -157,6 +157,7 @@ std::string bench_head(const BenchSettings& settings) {
          "\n# frames: " + std::to_string(settings.frames) + " at most, repeats: " + std::to_string(settings.repeats) +
          ", judged frames: " + std::to_string(settings.judged) +
          ", rays of the 3D reference: " + std::to_string(settings.rays) +
+         (settings.pull ? "\n# positions: asked for (pull)" : "") +
          "\n# times: microseconds a frame over all viewers, moves and query; least over repeats of each frame, then "
          "over frames but the first\n";
 }

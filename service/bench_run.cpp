@@ -11,6 +11,7 @@
 #include "gridcull/core/hash.h"
 #include "gridcull/grid/engine.h"
 #include "gridcull/service/bench_course.h"
+#include "gridcull/service/bench_source.h"
 #include "gridcull/service/interrupt.h"
 #include "gridcull/sim/stats.h"
 
@@ -45,7 +46,7 @@ struct MemoryMark {
 /// A contender at work.
 class Runner {
  public:
-  Runner(const BenchScene& scene, BenchRow& row) : scene_(&scene), row_(&row) {}
+  Runner(const BenchScene& scene, BenchRow& row, bool pull) : scene_(&scene), row_(&row), pull_(pull) {}
 
   bool out() const { return !row_->refused.empty() || stopped_; }
 
@@ -74,6 +75,7 @@ class Runner {
 
   void end_repeat() {
     culler_.reset();
+    source_.reset();
     if (!out() || row_->repeats == 0) ++row_->repeats;
   }
 
@@ -84,6 +86,10 @@ class Runner {
       culler_ = row_->contender.method->make(row_->contender.options);
       for (const SceneObject& object : scene_->scene.objects) culler_->add(object.object);
       const double us = microseconds(start, Clock::now());
+      if (pull_) {
+        source_ = std::make_unique<CourseSource>(scene_->scene);
+        culler_->set_source(source_.get());
+      }
       row_->load_us = row_->repeats == 0 ? us : std::min(row_->load_us, us);
       return true;
     } catch (const Error& error) {
@@ -93,8 +99,13 @@ class Runner {
   }
 
   void step(const CourseFrame& frame) {
+    if (source_) source_->take(frame);
     const auto start = Clock::now();
-    feed(*culler_, frame);
+    if (source_) {
+      source_->feed(*culler_, frame);
+    } else {
+      feed(*culler_, frame);
+    }
     const auto fed = Clock::now();
     culler_->query(frame.time, frame.views, answers_);
     const auto end = Clock::now();
@@ -124,6 +135,8 @@ class Runner {
 
   const BenchScene* scene_;
   BenchRow* row_;
+  bool pull_;
+  std::unique_ptr<CourseSource> source_{};  // outlives the culler that asks it
   std::unique_ptr<Culler> culler_{};
   Answers answers_{};
   StableHash hash_{};
@@ -192,7 +205,7 @@ BenchSceneResult run_bench_scene(const BenchScene& scene, std::span<const Conten
   BenchSceneResult result = describe(scene, contenders);
   BenchReferee referee(scene.scene.dimension, settings.judged, length_of(scene, settings), settings.rays);
   std::vector<Runner> runners;
-  for (BenchRow& row : result.rows) runners.emplace_back(scene, row);
+  for (BenchRow& row : result.rows) runners.emplace_back(scene, row, settings.pull);
   std::vector<CourseFrame> frames;
   for (int repeat = 0; repeat < settings.repeats; ++repeat) {
     Course course(scene, settings.frames, settings.every);

@@ -23,6 +23,7 @@ struct BenchSettings {
   int rays = 256;            ///< 3D: along a frustum's height or a cube face's edge
   double seconds = 20.0;     ///< a contender that has used more on a scene ends its repeats early
   std::uint64_t every = 1;   ///< only the scene's frames 0, every, 2 every ... (Course)
+  bool pull = false;         ///< methods ask for positions instead of being told of every move
   std::size_t run = 10;      ///< frames in a row, after which it is the next one's turn
 };
 

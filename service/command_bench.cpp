@@ -87,8 +87,8 @@ void take_figure(BenchOptions& o) {
   }
   const FigurePlan plan = figure_plan(o.figure);
   if (!plan.more_scenes) refuse_scenes(o);
-  std::set<std::string> used{"--threads", "--resolutions", "--occluders",  "--bounds",
-                             "--rays",    "--seconds",     "--max-memory", "--repeats"};
+  std::set<std::string> used{"--threads", "--resolutions", "--occluders", "--bounds", "--rays",
+                             "--seconds", "--max-memory",  "--repeats",   "--pull"};
   if (plan.methods.empty()) used.insert("--methods");
   if (plan.cells.empty()) used.insert("--cells");
   if (plan.more_scenes) used.insert({"--baked", "--bake"});
@@ -323,6 +323,8 @@ void add_options(CLI::App& command, BenchOptions& o) {
       ->delimiter(',')
       ->type_name("KIND,...");
   add_whole(command, "--repeats", o.settings.repeats, {1, 1000, "1 .. 1000"}, "times over (default 3)");
+  command.add_flag("--pull", o.settings.pull,
+                   "methods ask for the positions of movers that they need, instead of being told of every move");
   add_whole(command, "--frames", o.settings.frames, {.low = 1, .expected = "a whole number, 1 or more"},
             "of each scene, at most (default 40)");
   add_whole(command, "--judge", o.settings.judged, {.expected = "a whole number, 0 or more"},
@@ -365,8 +367,9 @@ void add_options(CLI::App& command, BenchOptions& o) {
       ->type_name("FILE,...");
   command.add_flag("--bake", o.choice.bake,
                    "first bake what methods work out in advance, on all cores; seconds and bytes go into the table");
-  for (const char* name : {"--methods", "--threads", "--resolutions", "--cells", "--occluders", "--bounds", "--repeats",
-                           "--frames", "--judge", "--rays", "--seconds", "--max-memory", "--baked", "--bake"}) {
+  for (const char* name :
+       {"--methods", "--threads", "--resolutions", "--cells", "--occluders", "--bounds", "--repeats", "--frames",
+        "--judge", "--rays", "--seconds", "--max-memory", "--baked", "--bake", "--pull"}) {
     o.settings_of_runs.push_back(command.get_option(name));
   }
   add_text(command, "--out", o.out, "a folder", "folder for bench.csv and the charts; without it only the tables")

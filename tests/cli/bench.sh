@@ -44,6 +44,13 @@ for row in "frustum, bounds box" "frustum, bounds sphere" "silhouette, resolutio
   grep -q "^  $row, 1 thread" stdout.txt || fail "no row '$row': $(cat stdout.txt)"
 done
 
+good "pulled" bench --scenes spheres:60:hidden=40 --methods voxel,silhouette,frustum --frames 3 --repeats 1 --pull --out out/p
+grep -q "^# positions: asked for" out/p/bench.csv || fail "bench.csv does not say that positions were asked for"
+good "told" bench --scenes spheres:60:hidden=40 --methods silhouette --frames 3 --repeats 1 --judge 0 --out out/q
+hash_of() { awk -F, '/^scene,/ { for (i = 1; i <= NF; ++i) at[$i] = i } /,silhouette,/ { print $at["pvs_hash"]; exit }' "$1"; }
+is "pulled or told, the same answers" "$(hash_of out/p/bench.csv)" "$(hash_of out/q/bench.csv)"
+rm -rf out/p out/q
+
 r() { refused "$1" "$2" bench "${@:3}" --out out/b; }
 r "unknown scene" "volcano" --scenes volcano
 r "no such file" "missing" --scenes missing/scene.json
@@ -51,6 +58,7 @@ r "a scene twice" "twice" --scenes discs:5,discs:5
 r "a bad count" "number" --scenes discs:many
 r "unknown method" "magic" --methods magic
 r "a method that takes no such scene" "none of them" --scenes discs:5 --methods depth-rays
+r "stability, pulled" "pull" --stability --pull
 r "0 threads" "threads" --threads 0
 r "10,000 threads" "threads" --threads 1,10000
 r "0 occluders" "occluders" --occluders 0
