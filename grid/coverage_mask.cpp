@@ -1,5 +1,9 @@
 // Why the answers are conservative.
 //
+// Cones of up to seven rays are covered without corners (mask_cone_body.h, with a claim of its own); what stands here
+// of margins and covers is for other cones, for all tests, and for windows so narrow that a plane through two rays may
+// be off by much of a pixel.
+//
 // Margins. Let P be the true image of a cone on a face's plane and p_k the computed corners, each within (d_x, d_y)
 // of the true one. B is the rectangle of half sides d_x, d_y, C the convex hull of the p_k: C lies in P + B, and P in
 // C + B. A pixel S whose enlargement S + B lies in C has S + B in P + B, hence S in P (P is closed and convex, B
@@ -69,8 +73,10 @@ void CoverageMask::begin(const ViewVolume& volume, int resolution) {
   const bool single = set_window(faces_[0], volume, resolution);
   if (!single) {
     face_count_ = 6;
-    for (int k = 0; k < 6; ++k) set_cube_face(faces_[static_cast<std::size_t>(k)], k, resolution);
+    const bool ready = cube_of_ == resolution;
+    for (int k = 0; k < 6 && !ready; ++k) set_cube_face(faces_[static_cast<std::size_t>(k)], k, resolution);
   }
+  cube_of_ = single ? 0 : resolution;
   std::size_t blocks = 0, coarse = 0;
   for (int k = 0; k < face_count_; ++k) blocks += block_count(face(k)), coarse += coarse_count(face(k));
   if (blocks_.size() < blocks) blocks_.resize(blocks);
@@ -118,10 +124,23 @@ bool CoverageMask::open_cone(const MaskFace& face, const Vec3* rays, int count) 
 }
 
 void CoverageMask::cover_convex(const Vec3* rays, int count) {
+  // On a narrower window what a plane through two rays may be off is no longer small beside a pixel.
+  constexpr double least_tangent = 0x1p-4;
+  const bool wide = std::min(face(0).tangent_x, face(0).tangent_y) >= least_tangent;
+  masking::Cone cone;
+  if (wide && count <= masking::Cone::max_rays && kernels_->span_cone(&rays[0].x, count, cone)) return cover_cone(cone);
   unsigned near = face_count_ == 6 ? masking::cube_faces_near(rays, count) : 1;
   for (; near != 0; near &= near - 1) {
     MaskFace& f = faces_[static_cast<std::size_t>(std::countr_zero(near))];
     if (f.window.open_blocks != 0) cover_cone(f, rays, count);
+  }
+}
+
+void CoverageMask::cover_cone(const masking::Cone& cone) {
+  unsigned near = face_count_ == 6 ? masking::cube_faces_near_rays(cone.low, cone.high) : 1;
+  for (; near != 0; near &= near - 1) {
+    masking::Window& window = faces_[static_cast<std::size_t>(std::countr_zero(near))].window;
+    if (window.open_blocks != 0) open_blocks_ -= kernels_->cover_cone(window, cone, strips_);
   }
 }
 
@@ -218,6 +237,15 @@ bool CoverageMask::open_box(const Vec3& low, const Vec3& high) const {
     }
   }
   return false;
+}
+
+void CoverageMask::set_outlook(masking::Outlook& out) const {
+  const MaskFace& f = face(0);
+  out.cube = face_count_ == 6;
+  for (int k = 0; k < 3; ++k) out.right[k] = f.right[k], out.up[k] = f.up[k], out.forward[k] = f.forward[k];
+  out.tangent_x = f.tangent_x, out.tangent_y = f.tangent_y;
+  out.scale_x = f.scale_x, out.scale_y = f.scale_y;
+  out.norm_x = f.norm_x, out.norm_y = f.norm_y;
 }
 
 bool CoverageMask::open_towards(const Vec3& d) const {

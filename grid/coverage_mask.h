@@ -56,6 +56,17 @@ class CoverageMask {
   /// Axis-aligned box, low <= high; the rectangle about its image is tested.
   bool open_box(const Vec3& low, const Vec3& high) const;
 
+  /// Keys of up to eight balls and the pixels they may touch, for open_pixels(): open where open_about_ball() is, or,
+  /// for those that stand upright, open_box(). `outlook` came from set_outlook() since begin().
+  void place_balls(const masking::Outlook& outlook, const masking::Balls& balls, masking::Batch& out) const {
+    kernels_->place_balls(outlook, face(0).window, balls, out);
+  }
+  void set_outlook(masking::Outlook& outlook) const;
+  bool open_pixels(int index, const masking::Rectangle& pixels) const {
+    const masking::Window& window = face(index).window;
+    return window.open_blocks != 0 && kernels_->open_rectangle(window, pixels, strips_);
+  }
+
   /// Whether the pixel that the direction falls on (rounded: or one beside it) is uncovered; false outside the view.
   /// No proof of anything: what lies there may be seen.
   bool open_towards(const Vec3& direction) const;
@@ -74,12 +85,14 @@ class CoverageMask {
   /// Faces that a ball may reach, a bit each.
   unsigned faces_near(const Vec3& centre, double radius) const;
   void cover_beyond(const ViewVolume& volume);
+  void cover_cone(const masking::Cone& cone);
   void cover_cone(MaskFace& face, const Vec3* rays, int count);
   bool open_cone(const MaskFace& face, const Vec3* rays, int count) const;
 
   const masking::Kernels* kernels_;
   std::array<MaskFace, 6> faces_;
   int face_count_ = 0;
+  int cube_of_ = 0;  // the resolution for which faces_ are those of the cube
   int open_blocks_ = 0;
   std::vector<MaskBlock> blocks_;
   std::vector<std::uint64_t> full_;

@@ -32,10 +32,14 @@ unsigned cube_faces_near_box(const Vec3& low, const Vec3& high) {
 unsigned cube_faces_near(const Vec3* rays, int count) {
   Vec3 low = rays[0], high = rays[0];
   for (int k = 1; k < count; ++k) low = glm::min(low, rays[k]), high = glm::max(high, rays[k]);
+  return cube_faces_near_rays(&low.x, &high.x);
+}
+
+unsigned cube_faces_near_rays(const double* low, const double* high) {
   double slack = 0.0;
   for (int k = 0; k < 3; ++k) slack = std::max({slack, -low[k], high[k]});
   slack *= 0x1p-38;
-  return cube_faces_near_box(low - slack, high + slack);
+  return cube_faces_near_box(Vec3(low[0], low[1], low[2]) - slack, Vec3(high[0], high[1], high[2]) + slack);
 }
 
 unsigned cube_faces_near_ball(const Vec3& c, double reach) {

@@ -40,6 +40,10 @@ void set_geometry(MaskFace& face, const Vec3& right, const Vec3& up, const Vec3&
   set_form(w.form_x, face.scale_x * right + middle_x * forward);
   set_form(w.form_y, face.scale_y * up + middle_y * forward);
   set_form(w.form_w, forward);
+  set_form(w.corner, forward - tangent_x * right - tangent_y * up);
+  set_form(w.per_x, (1.0 / face.scale_x) * right);
+  set_form(w.per_y, (1.0 / face.scale_y) * up);
+  w.step = 1.0 / face.scale_x;
   w.guard_x = std::min(guard_tangent * face.scale_x, guard_pixels);
   w.guard_y = std::min(guard_tangent * face.scale_y, guard_pixels);
   // See coverage_mask.cpp, "Margins".

@@ -26,13 +26,15 @@ struct Window {
   double guard_x = 0, guard_y = 0;    ///< pixels from the middle, below 2^18: beyond them polygons are clipped
   double slack_x = 0, slack_y = 0;    ///< bound of the error of a form over the largest coordinate of d
   double margin_x = 0, margin_y = 0;  ///< pixels: see coverage_mask.cpp
-  int blocks = 0;                     ///< along a row
-  int strips = 0;                     ///< rows of blocks
-  int coarse = 0;                     ///< words of `full` for a strip
-  int open_blocks = 0;                ///< blocks that are not full; 0: the three below may hold anything
-  std::uint64_t* words = nullptr;     ///< blocks * strips * 8
-  std::uint64_t* full = nullptr;      ///< coarse * strips
-  std::uint64_t* columns = nullptr;   ///< blocks * strips; eight words behind them can be read
+  /// A pixel's corner is the direction corner + x per_x + y per_y; `step`: the length of per_x.
+  double corner[3], per_x[3], per_y[3], step = 0;
+  int blocks = 0;                    ///< along a row
+  int strips = 0;                    ///< rows of blocks
+  int coarse = 0;                    ///< words of `full` for a strip
+  int open_blocks = 0;               ///< blocks that are not full; 0: the three below may hold anything
+  std::uint64_t* words = nullptr;    ///< blocks * strips * 8
+  std::uint64_t* full = nullptr;     ///< coarse * strips
+  std::uint64_t* columns = nullptr;  ///< blocks * strips; eight words behind them can be read
 };
 
 /// A convex polygon on a face, its corners in pixels, multiples of 2^-32, within the guards; beyond `count` the
@@ -42,6 +44,16 @@ struct alignas(64) Polygon {
   double y[max_vertices];
   int count = 0;
   double margin_x = 0, margin_y = 0;  ///< pixels that the corners may be off
+};
+
+/// The cone that up to seven rays span, with what all faces need of it (mask_cone_body.h).
+struct alignas(64) Cone {
+  static constexpr int max_rays = 7;
+  double x[8], y[8], z[8];     ///< the rays, the last one again beyond `count`
+  double nx[8], ny[8], nz[8];  ///< inward normals of the planes through lane k's ray and the next one
+  double margin[8];            ///< how far inside a plane a direction must be
+  double low[3], high[3];      ///< bounds of the rays
+  int count;
 };
 
 /// The outline of a ball on a face: x = alpha + beta y -+ gamma sqrt((high_y - y)(y - low_y)), all in pixels.
@@ -63,14 +75,46 @@ enum class Projection {
   crossing  ///< neither: has to be clipped first
 };
 
+/// From where balls are looked at, and at what.
+struct Outlook {
+  double apex[3];    ///< the viewpoint, world
+  double apex_size;  ///< sum of its magnitudes
+  double rounding;   ///< of a ball's place relative to the viewpoint, times the coordinates that go in
+  double limit;      ///< what has a greater key is left out
+  bool cube;         ///< six faces with world axes; else one window with these:
+  double right[3], up[3], forward[3];
+  double tangent_x, tangent_y, scale_x, scale_y, norm_x, norm_y;  ///< as in MaskFace, of all faces
+};
+
+/// Up to eight balls in the world.
+struct Balls {
+  alignas(64) double x[8]{}, y[8]{}, z[8]{}, radius[8]{};
+  alignas(64) double wide[8]{}, tall[8]{};  ///< upright objects: 255ths of the radius that they fill; else wide < 0
+  int count = 0;
+};
+
+/// What is to know of each of them (mask_batch_body.h); lanes of what is left out hold anything.
+struct Batch {
+  alignas(64) double key[8];
+  double x[8], y[8], z[8], wide[8], tall[8];  ///< the box about it: its middle relative to the viewpoint, its halves
+  int face[8], x0[8], x1[8], y0[8], y1[8];    ///< pixels it may touch; Rectangle, but for x0 >= x1: none
+  unsigned kept;                              ///< a bit each: neither beyond the limit nor beside the window
+  unsigned single;                            ///< its pixels are told; the others have to be asked about one by one
+};
+
 struct Kernels {
   /// Rays (three doubles each, 3 .. 64 of them) onto the face.
   Projection (*project)(const Window&, const double* rays, int count, Polygon& out);
   /// An axis-aligned box (low, then high) as the rectangle of pixels it may touch; `inside` when that is valid.
   Projection (*project_box)(const Window&, const double* low, const double* high, Rectangle& out);
+  /// Keys and rectangles of up to eight balls; `window`: the one window, or any face of the cube.
+  void (*place_balls)(const Outlook&, const Window& window, const Balls&, Batch& out);
   /// Sets the pixels that lie wholly inside; returns how many blocks became full. Each counts the strips that it
   /// works on in `strips`.
   int (*cover_polygon)(Window&, const Polygon&, std::uint64_t& strips);
+  /// Sets up a cone of 3 .. 7 rays in cyclic order; false where they spread too far: it has to be clipped.
+  bool (*span_cone)(const double* rays, int count, Cone& out);
+  int (*cover_cone)(Window&, const Cone&, std::uint64_t& strips);
   int (*cover_ellipse)(Window&, const Ellipse&, std::uint64_t& strips);
   /// Whether a pixel that the shape may touch is uncovered.
   bool (*open_polygon)(const Window&, const Polygon&, std::uint64_t& strips);

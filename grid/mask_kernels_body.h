@@ -226,6 +226,15 @@ bool open_polygon(const Window& window, const Polygon& p, std::uint64_t& strips)
   });
 }
 
+}  // namespace
+}  // namespace gridcull::masking::GRIDCULL_MASK_SET
+
+#include "gridcull/grid/mask_batch_body.h"
+#include "gridcull/grid/mask_cone_body.h"
+
+namespace gridcull::masking::GRIDCULL_MASK_SET {
+namespace {
+
 // Ellipses.
 
 /// Where the outline crosses height y: middle -+ half.
@@ -282,10 +291,29 @@ bool open_rows(const Window& window, const Rectangle& r, int strip, int block) {
   return false;
 }
 
+/// Of rectangles in one or two blocks of a strip: block `first` and the one behind it, if need be.
+bool open_narrow(const Window& window, const Rectangle& r, int first, std::uint64_t& strips) {
+  const auto asked = [&](int left) {
+    const int from = r.x0 - left > 0 ? r.x0 - left : 0, to = r.x1 - left < 64 ? r.x1 - left : 64;
+    return from < to ? (~std::uint64_t{0} << from) & (~std::uint64_t{0} >> (64 - to)) : 0;
+  };
+  const std::uint64_t asked0 = asked(64 * first), asked1 = asked(64 * first + 64);
+  const std::uint64_t* columns = window.columns + (r.y0 / 8 * window.blocks + first);
+  for (int strip = r.y0 / 8; 8 * strip < r.y1; ++strip, columns += window.blocks) {
+    if (((asked0 & ~columns[0]) | (asked1 & ~columns[1])) == 0) continue;
+    ++strips;
+    const bool whole = r.y0 <= 8 * strip && 8 * strip + 8 <= r.y1;
+    if (whole || open_rows(window, r, strip, first)) return true;
+  }
+  return false;
+}
+
 // Eight blocks of a strip at a time: mostly their columns are covered over all eight rows wherever it is asked.
 bool open_rectangle(const Window& window, const Rectangle& r, std::uint64_t& strips) {
   if (r.x0 >= r.x1) return false;
-  for (int block = r.x0 / 64; 64 * block < r.x1; block += 8) {
+  const int first = r.x0 / 64;
+  if (r.x1 <= 64 * first + 128) return open_narrow(window, r, first, strips);
+  for (int block = first; 64 * block < r.x1; block += 8) {
     const Words asked = columns_of(r, block);
     for (int strip = r.y0 / 8; 8 * strip < r.y1; ++strip) {
       if (!any_beyond(asked, load(window.columns + (strip * window.blocks + block)))) continue;
@@ -300,8 +328,8 @@ bool open_rectangle(const Window& window, const Rectangle& r, std::uint64_t& str
 }  // namespace
 
 const Kernels& kernels() {
-  static constexpr Kernels table{project,      project_box,  cover_polygon, cover_ellipse,
-                                 open_polygon, open_ellipse, open_rectangle};
+  static constexpr Kernels table{project,    project_box,   place_balls,  cover_polygon, span_cone,
+                                 cover_cone, cover_ellipse, open_polygon, open_ellipse,  open_rectangle};
   return table;
 }
 

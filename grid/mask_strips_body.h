@@ -72,19 +72,23 @@ GRIDCULL_MASK_INLINE bool each_open(const Window& window, const Extent& e, std::
   return false;
 }
 
+/// Sets bits of a block; returns whether it is full now.
+GRIDCULL_MASK_INLINE bool cover_block(Window& window, int strip, int block, const Words& bits) {
+  std::uint64_t* const words = window.words + 8 * (strip * window.blocks + block);
+  const Words now = load(words) | bits;
+  store(words, now);
+  const std::uint64_t columns = common(now);
+  window.columns[strip * window.blocks + block] = columns;
+  if (columns != ~std::uint64_t{0}) return false;
+  window.full[strip * window.coarse + block / 64] |= std::uint64_t{1} << (block % 64);
+  return true;
+}
+
 template <class Spans>
 GRIDCULL_MASK_INLINE int cover_strips(Window& window, const Extent& e, std::uint64_t& strips, const Spans& spans) {
   int filled = 0;
   each_open(window, e, strips, spans, [&](int strip, int block, const Words& bits) {
-    std::uint64_t* const words = window.words + 8 * (strip * window.blocks + block);
-    const Words now = load(words) | bits;
-    store(words, now);
-    const std::uint64_t columns = common(now);
-    window.columns[strip * window.blocks + block] = columns;
-    if (columns == ~std::uint64_t{0}) {
-      window.full[strip * window.coarse + block / 64] |= std::uint64_t{1} << (block % 64);
-      ++filled;
-    }
+    filled += cover_block(window, strip, block, bits);
     return false;
   });
   window.open_blocks -= filled;

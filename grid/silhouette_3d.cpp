@@ -14,12 +14,13 @@
 // Shortcuts. What lies beyond a side of the one window has no pixel there: it is neither visible nor hides anything,
 // and is not pushed. Hidden by the rectangle about its ball, which holds every pixel that the object touches, an object
 // is hidden; so it is by the rectangle about its box where it stands upright, and its key is the distance of the
-// cylinder in that box, which holds it too (SilhouetteWorld::filling()). When no test is left, occluders change no
-// answer. Its one pixel at its nearest point (or middle) being open, it is reported without any outline: an answer that
-// lets an object through needs no proof. It is as tight as the whole test, for the point belongs to the object's hull,
-// and for balls and boxes also to the nearest slice; rounding may take it one pixel beside the outline. Objects nearer
-// than the near plane are entered as occluders too, though not reported; nothing beyond the range can hide what is
-// within it.
+// cylinder in that box, which holds it too (SilhouetteWorld::filling()). Keys and rectangles depend on nothing that the
+// walk finds out, so they are worked out eight at a time when a node is opened (mask_batch_body.h). When no test is
+// left, occluders change no answer. Its one pixel at its nearest point (or middle) being open, it is reported without
+// any outline: an answer that lets an object through needs no proof. It is as tight as the whole test, for the point
+// belongs to the object's hull, and for balls and boxes also to the nearest slice; rounding may take it one pixel
+// beside the outline. Objects nearer than the near plane are entered as occluders too, though not reported; nothing
+// beyond the range can hide what is within it.
 //
 // Cost: nodes, objects and pixels in front of what is visible; what is behind covered pixels is met as nodes only.
 // The order inside a bucket and the shape of the index change no answer: a test depends on the occluders of lower
@@ -29,6 +30,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 
 #include "gridcull/grid/ball_sections.h"
 #include "gridcull/grid/draw_volumes.h"
@@ -108,6 +110,10 @@ void Silhouette3D::begin(const View& view) {
   limit_ = volume_->range() * (1.0 + 1e-12);
   mask_.begin(*volume_, pixels());
   mask_.clear_counts();
+  sighted_ = none;
+  mask_.set_outlook(outlook_);
+  for (int k = 0; k < 3; ++k) outlook_.apex[k] = apex[k];
+  outlook_.apex_size = apex_size_, outlook_.rounding = rounding, outlook_.limit = limit_;
   nodes_.clear();
   groups_.clear();
   entries_.clear();
@@ -124,7 +130,9 @@ void Silhouette3D::begin(const View& view) {
     if (shapes_->index.exists(id) && shapes_->index.node(id).below > 0) push_node(id);
   }
   const LooseIndex& index = shapes_->index;
-  for (const Slot slot : world.outside) push_entry(index.item(index.place_of(slot)), index.place_of(slot));
+  for (const Slot slot : world.outside) weigh(index.item(index.place_of(slot)), index.place_of(slot));
+  weigh_rest();
+  push_range(0, static_cast<std::uint32_t>(entries_.size()));
 }
 
 // A window of 512 pixels costs a few per cent more than one of 256 and a fifth of the over-estimation. A cube has six
@@ -145,8 +153,8 @@ void Silhouette3D::walk() {
     switch (item.kind) {
       case FrontQueue::Kind::node: open_node(nodes_[item.what]); break;
       case FrontQueue::Kind::group: look_at_group(groups_[item.what]); break;
-      case FrontQueue::Kind::volume: look_at_volume(static_cast<BallRows::Place>(item.what)); break;
-      case FrontQueue::Kind::object: look(static_cast<BallRows::Place>(item.what)); break;
+      case FrontQueue::Kind::volume: look_at_volume(entries_[item.what]); break;
+      case FrontQueue::Kind::object: look(entries_[item.what]); break;
       case FrontQueue::Kind::slice: look_at_slices(sliced_[item.what]); break;
       case FrontQueue::Kind::occluder: enter(occluders_[item.what]); break;
     }
@@ -155,8 +163,9 @@ void Silhouette3D::walk() {
 
 // A volume that is open somewhere is given up: its object is read and looked at like any other, when its own depth
 // has come, so that answers do not depend on who has a volume.
-void Silhouette3D::look_at_volume(BallRows::Place place) {
+void Silhouette3D::look_at_volume(const Entry& entry) {
   ++answer_->work.tbv_tests;
+  const BallRows::Place place = entry.place;
   const Slot slot = shapes_->index.item(place).slot;
   const LooseBall& ball = shapes_->index.item(place).ball;
   if (!mask_.open_ball(ball.centre - volume_->apex(), grown(ball))) return;
@@ -166,8 +175,12 @@ void Silhouette3D::look_at_volume(BallRows::Place place) {
   push_object(place, shapes_->ball_at(slot, pose), SilhouetteWorld::stands_upright(shapes_->index.marks(slot), pose));
 }
 
-void Silhouette3D::look(BallRows::Place place) {
-  const BallRows::Item& item = shapes_->index.item(place);
+void Silhouette3D::look(const Entry& entry) {
+  ++answer_->work.object_tests;
+  // Most objects that are met are hidden, and most of those are found to be by the pixels about their ball or box.
+  const bool told = entry.face >= 0;
+  if (told && !open_pixels(entry)) return;
+  const BallRows::Item& item = shapes_->index.item(entry.place);
   const Slot slot = item.slot;
   world_->objects.prefetch(slot);
   if ((item.marks & SilhouetteWorld::is_ball) == 0) shapes_->prefetch_solid(slot);
@@ -175,11 +188,9 @@ void Silhouette3D::look(BallRows::Place place) {
   const LooseBall ball = has_volume ? shapes_->ball_at(slot, pose_of(slot)) : ball_of(item);
   const bool upright = has_volume ? SilhouetteWorld::stands_upright(item.marks, pose_of(slot))
                                   : SilhouetteWorld::upright_now(item.marks);
-  ++answer_->work.object_tests;
-  // Most objects that are met are hidden, and most of those are found to be by the rectangle about their ball or box.
   const Vec3 centre = ball.centre - volume_->apex();
   const double radius = grown(ball);
-  if (!open_about(item, centre, ball.radius, radius, upright)) return;
+  if (!told && !open_about(item, centre, ball.radius, radius, upright)) return;
   if (glm::dot(centre, centre) <= radius * radius && holds_viewpoint(slot)) {
     result_->seen.push_back(slot);
     return;
@@ -205,9 +216,13 @@ bool Silhouette3D::holds_viewpoint(Slot slot) const {
   return world_->objects[slot].shape->holds(pose_of(slot), volume_->apex());
 }
 
-SightFrame Silhouette3D::sight(Slot slot) const {
-  const Pose& pose = pose_of(slot);
-  return sight_frame(pose, rotation_of(pose.orientation), volume_->apex());
+const SightFrame& Silhouette3D::sight(Slot slot) {
+  if (slot != sighted_) {
+    const Pose& pose = pose_of(slot);
+    frame_ = sight_frame(pose, rotation_of(pose.orientation), volume_->apex());
+    sighted_ = slot;
+  }
+  return frame_;
 }
 
 bool Silhouette3D::open_whole(Slot slot, Sliced& object) {
@@ -234,7 +249,7 @@ LooseBall Silhouette3D::bounding_ball(Slot slot, const SilhouetteWorld::Solid& s
 
 // The box around a solid, with the world's axes, is a first, cheap test.
 bool Silhouette3D::open_solid(Slot slot, const SilhouetteWorld::Solid& solid, Sliced& object) {
-  const SightFrame frame = sight(slot);
+  const SightFrame& frame = sight(slot);
   if (mask_.open_towards(front_of(solid.outer, frame))) return true;
   const Rotation& r = frame.rotation;
   const Vec3 centre = frame.origin + r * solid.box_centre;
@@ -243,12 +258,20 @@ bool Silhouette3D::open_solid(Slot slot, const SilhouetteWorld::Solid& solid, Sl
                     glm::abs(r.z) * solid.box_half.z + Vec3(blur);
   if (!mask_.open_box(centre - half, centre + half)) return false;
   if (!outer_outline({solid.outer, frame}, outline_)) return true;
-  if (!mask_.open_convex(outline_.rays.data(), outline_.count)) return false;
+  if (!open_outline()) return false;
   if (outline_.farthest > worth_slicing * outline_.nearest) {
     object.nearest = outline_.nearest;
     object.farthest = outline_.farthest;
   }
   return true;
+}
+
+// A corner of the outline whose pixel is open, as most have that come so far, spares the test of its whole image, which
+// would find that pixel.
+bool Silhouette3D::open_outline() const {
+  const auto rays = std::span(outline_.rays).first(static_cast<std::size_t>(outline_.count));
+  return std::any_of(rays.begin(), rays.end(), [this](const Vec3& ray) { return mask_.open_towards(ray); }) ||
+         mask_.open_convex(rays.data(), outline_.count);
 }
 
 // Slices reach from boundary to boundary; the nearest is looked at at once, each next one when its depth has come and
@@ -271,11 +294,11 @@ bool Silhouette3D::open_slice(const Sliced& object) {
       object.slice + 1 == slices ? object.farthest : object.nearest + depth * (object.slice + 1) / slices;
   const SilhouetteWorld::Solid* solid = shapes_->solid(object.slot);
   if (solid != nullptr && solid->ball.radius == 0.0) {
-    const SightFrame frame = sight(object.slot);
+    const SightFrame& frame = sight(object.slot);
     switch (outer_slice({solid->outer, frame}, near, far, outline_)) {
       case Slice::empty: return false;
       case Slice::unknown: return true;
-      case Slice::outline: return mask_.open_convex(outline_.rays.data(), outline_.count);
+      case Slice::outline: return open_outline();
     }
   }
   const ObjectState& state = world_->objects[object.slot];
@@ -327,7 +350,7 @@ void Silhouette3D::hide_behind_ball(const LooseBall& ball) {
 }
 
 void Silhouette3D::hide_behind_pieces(Slot slot) {
-  const SightFrame frame = sight(slot);
+  const SightFrame& frame = sight(slot);
   for (const ConvexPiece& piece : shapes_->solid(slot)->pieces.pieces) {
     const int count = sections({piece, frame}, sections_);
     for (int i = 0; i < count; ++i) {
@@ -354,7 +377,8 @@ void Silhouette3D::enter(const Occluder& occluder) {
 std::uint64_t Silhouette3D::bytes() const {
   return mask_.bytes() + queue_.bytes() + occluders_.capacity() * sizeof(Occluder) + rays_.capacity() * sizeof(Vec3) +
          sliced_.capacity() * sizeof(Sliced) + nodes_.capacity() * sizeof(LooseIndex::NodeId) +
-         groups_.capacity() * sizeof(Group) + entries_.capacity() * sizeof(Entry);
+         groups_.capacity() * sizeof(Group) + entries_.capacity() * sizeof(Entry) +
+         waiting_.capacity() * sizeof(BallRows::Place);
 }
 
 }  // namespace gridcull

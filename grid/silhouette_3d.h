@@ -50,11 +50,13 @@ class Silhouette3D final : public ViewAnswerer {
   struct Box {
     Vec3 low, high;  ///< relative to the viewpoint
   };
-  /// An object or volume on its way into the queue.
+  /// An object or volume that is in the queue or on its way there, with the pixels that it is first tested with.
   struct Entry {
     double key;
     BallRows::Place place;
     FrontQueue::Kind kind;
+    std::int8_t face;                    ///< -1: they are not told
+    std::array<std::int16_t, 4> pixels;  ///< as masking::Rectangle
   };
   /// What hangs in a node and below, where that is little: tested together, as one box.
   struct Group {
@@ -62,24 +64,32 @@ class Silhouette3D final : public ViewAnswerer {
     LooseIndex::NodeId node;
     std::uint32_t first, count;  ///< in entries_
   };
+  /// A node's, or a group's.
+  double key_of(const Box& box) const;
   Box box_of(const LooseIndex::NodeId& id) const;
   void push_node(const LooseIndex::NodeId& id);
   void push_children(const LooseIndex::NodeId& id);
   void open_node(LooseIndex::NodeId id);
   void push_group(const LooseIndex::NodeId& id);
-  /// Appends what hangs in the node and below to entries_, unweighed.
   void gather(const LooseIndex::NodeId& id, const LooseIndex::Node& node);
-  /// Weighs entries_ from `first` on and keeps those that matter: how many.
-  std::uint32_t weigh_all(std::uint32_t first, Box& box);
   void look_at_group(const Group& group);
   void push_entries(const Group& group);
-  void push_entry(const BallRows::Item& item, BallRows::Place place);
+  /// Into the queue: entries [first, end).
+  void push_range(std::uint32_t first, std::uint32_t end);
   void push_object(BallRows::Place place, const LooseBall& ball, bool upright);
-  /// False where the ball can neither be seen nor hide anything; `box` grows by what it holds.
-  bool weigh(const BallRows::Item& item, const LooseBall& ball, bool upright, double& key, Box& box) const;
-  void look_at_volume(BallRows::Place place);
+  /// What is to be weighed is asked from memory; weigh_rest() sends it to entries_, by eights.
+  void weigh(const BallRows::Item& item, BallRows::Place place);
+  void weigh_rest();
+  void load(const LooseBall& ball, const BallRows::Item& item, bool upright, BallRows::Place place,
+            FrontQueue::Kind kind);
+  void place_balls();
+  void look_at_volume(const Entry& entry);
   /// First test: the object as a whole.
-  void look(BallRows::Place place);
+  void look(const Entry& entry);
+  bool open_pixels(const Entry& entry) const {
+    const std::array<std::int16_t, 4>& p = entry.pixels;
+    return mask_.open_pixels(entry.face, {p[0], p[1], p[2], p[3]});
+  }
   /// The rectangle about the box of an upright object, or about the ball. `centre`: relative to the viewpoint.
   bool open_about(const BallRows::Item& item, const Vec3& centre, double radius, double grown, bool upright) const;
   bool holds_viewpoint(Slot slot) const;
@@ -88,6 +98,7 @@ class Silhouette3D final : public ViewAnswerer {
   /// Where an object is tested as a bounding sphere: that, in the world, with all that rounding may do.
   LooseBall bounding_ball(Slot slot, const SilhouetteWorld::Solid& solid) const;
   bool open_solid(Slot slot, const SilhouetteWorld::Solid& solid, Sliced& object);
+  bool open_outline() const;
   /// Second test: slice after slice, from the nearest on.
   void look_at_slices(Sliced object);
   bool open_slice(const Sliced& object);
@@ -100,7 +111,8 @@ class Silhouette3D final : public ViewAnswerer {
   bool in_view(Slot slot) const;
   /// The ball's radius and what the rounding of its place relative to the viewpoint may make of it.
   double grown(const LooseBall& ball) const;
-  SightFrame sight(Slot slot) const;
+  /// Of the slot asked about last it is kept: whoever is found visible is asked about again as an occluder.
+  const SightFrame& sight(Slot slot);
   /// The object's own ball, or its volume.
   LooseBall ball_of(const BallRows::Item& item) const {
     if ((item.marks & SilhouetteWorld::is_loose) == 0) return item.ball;
@@ -121,6 +133,8 @@ class Silhouette3D final : public ViewAnswerer {
   Answer* answer_ = nullptr;
   ViewResult* result_ = nullptr;
   Slot rides_ = none;
+  Slot sighted_ = none;  // whose frame_ is
+  SightFrame frame_{};
   double limit_ = 0.0;                     // nothing whose nearest point is farther can be reported
   double apex_size_ = 0.0;                 // sum of its coordinates' magnitudes
   Vec3 corner_{0.0};                       // of the index, relative to the viewpoint
@@ -128,6 +142,13 @@ class Silhouette3D final : public ViewAnswerer {
   std::vector<LooseIndex::NodeId> nodes_;  // in the queue, as occluders are
   std::vector<Group> groups_;
   std::vector<Entry> entries_;
+  std::vector<BallRows::Place> waiting_;  // to be weighed
+  masking::Outlook outlook_{};
+  masking::Balls balls_;  // that are weighed next
+  std::array<BallRows::Place, 8> places_{};
+  std::array<FrontQueue::Kind, 8> kinds_{};
+  masking::Batch batch_;
+  Box box_{};  // about what was weighed since it was emptied
   std::vector<Occluder> occluders_;
   std::vector<Vec3> rays_;
   std::vector<Sliced> sliced_;
