@@ -1,6 +1,7 @@
 // Temporal bounding volumes by counts: what they save, and that nobody is overlooked for it.
 #include <array>
 #include <set>
+#include <string>
 #include <utility>
 
 #include <doctest/doctest.h>
@@ -105,7 +106,8 @@ TEST_CASE("of a thousand frames the worst is at most twice the mean") {
     CAPTURE(hiding == Hiding::voxel);
     for (const std::size_t k : {0, 1}) {
       const double mean = static_cast<double>(sums[k]) / frames;
-      MESSAGE((k == 0 ? "positions read" : "all work") << " a frame: mean " << mean << ", worst " << worst[k]);
+      MESSAGE(std::string(k == 0 ? "positions read" : "all work")
+              << " a frame: mean " << mean << ", worst " << worst[k]);
       CHECK(mean > 0.0);
       CHECK(static_cast<double>(worst[k]) <= 2.0 * mean);
     }
