@@ -84,7 +84,7 @@ void GridEngine::query(double time, std::span<const View> views, Answers& out) {
   const auto start = std::chrono::steady_clock::now();
   State& s = *state_;
   s.check(time, views);
-  s.before = s.now;
+  s.before = s.started ? s.now : time;  // before the first frame is no time
   s.now = time;
   ++s.world.frame;
   if (s.world.silhouettes) s.world.silhouettes->index.begin_frame();

@@ -24,8 +24,10 @@ constexpr double leash_frames = 8.0;
 
 }  // namespace
 
+// A wish: LooseIndex::place() bounds it.
 double GridEngine::State::room(Slot slot) const {
-  return started ? leash_frames * std::max(0.0, world.objects.max_speed(slot)) * (now - before) : 0.0;
+  if (!world.objects[slot].moves()) return 0.0;
+  return leash_frames * std::max(0.0, world.objects.max_speed(slot)) * (now - before);
 }
 
 // What is left of a leash is at most what is left of the slack: the way is rounded up and the difference down, by 2^-20

@@ -13,6 +13,8 @@ constexpr double most_nodes = 1 << 20;
 /// objects in a wide world may stand close together.
 constexpr std::size_t dense = 2;
 constexpr int highest_floor = 2;
+/// Levels that a ball may hang above the one that it needs, for room to move.
+constexpr int most_raised = 2;
 
 std::int32_t count_along(double extent, double side) {
   return static_cast<std::int32_t>(std::floor(extent / side)) + 1;
@@ -119,11 +121,19 @@ void LooseIndex::count(NodeId id, std::uint32_t step, int below) {
   }
 }
 
+// Never finer than the ball needs, whatever is wished for; and a walk through coarse nodes meets everybody in them, so
+// that there is a bound to the other side too. (Not a number: no room.)
+int LooseIndex::level_with(double radius, double room) const {
+  const int least = level_for(radius);
+  const double wished = room > 0.0 ? std::min(room, side(top())) : 0.0;
+  return std::min({std::max(least, level_for(radius + wished)), least + most_raised, top()});
+}
+
 void LooseIndex::place(Slot slot, LooseBall ball, double room) {
   Entry& entry = entries_[slot];
   const int height = static_cast<int>(levels_.size());
   const bool here = entry.level != nowhere;
-  const int level = std::min(level_for(ball.radius + room), top());
+  const int level = level_with(ball.radius, room);
   Level& home = levels_[static_cast<std::size_t>(level)];
   const NodeId id = node_of(ball.centre, level);
   const auto index = static_cast<std::uint32_t>(home.index(id, dimension_));

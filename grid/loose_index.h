@@ -42,7 +42,7 @@ class LooseIndex {
   /// extent. What it does not take the caller keeps elsewhere.
   bool takes(const LooseBall& ball) const;
   /// Enters the slot's ball or moves it. takes(ball). (By value: it may be a ball of this index, which moves.) `room`:
-  /// metres, at least so much of it is wished for in slack(); there may be less at the coarsest level.
+  /// metres, at least so much of it is wished for in slack(); there may be less, as levels are bounded.
   void place(Slot slot, LooseBall ball, double room = 0.0);
   /// Metres that the ball of a slot that is here may go in any direction and still lie in its node's loose box.
   double slack(Slot slot) const {
@@ -195,6 +195,7 @@ class LooseIndex {
   };
 
   int level_for(double radius) const;
+  int level_with(double radius, double room) const;
   double inverse_side(int level) const { return levels_[static_cast<std::size_t>(level)].inverse_side; }
   bool sparse(int level) const;
   NodeId node_of(const Vec3& centre, int level) const;

@@ -48,6 +48,11 @@ bool span_cone(const double* rays, int count, Cone& out) {
   Lanes nx = y * zb - z * yb, ny = z * xb - x * zb, nz = x * yb - y * xb;
   const Lanes size = (magnitude(x) + magnitude(y)) + magnitude(z);
   double hx, hy, hz;
+  // Two rays that are nearly one span no plane to speak of: the margin would move it in by a part of a pixel and more.
+  const Lanes sizes = size * shift_in(size, size), lanes = iota();
+  const Mask spans = splat(0x1p-22) * sizes < (magnitude(nx) + magnitude(ny)) + magnitude(nz);
+  const Mask beyond = (splat(count - 1.0) <= lanes) & (lanes < splat(7.0));
+  if (bits(spans) != (bits(spans) | (255u & ~bits(beyond)))) return false;
   const bool before_h = lean_on(x, y, z, size, hx, hy, hz);
   // The products of the last ray with itself, beyond `count`, are 0.
   const bool turned = (sum(nx) * hx + sum(ny) * hy) + sum(nz) * hz < 0.0;

@@ -176,4 +176,30 @@ TEST_CASE("the round of pushes comes round again and is not taken for the one be
   CHECK(answers.stats.jumps == 1);
 }
 
+// Times are as the simulator counts them: what the index holds must not depend on where they begin.
+TEST_CASE("nobody is missed at whatever time the first frame is, and at the next") {
+  for (const double first : {-1000.0, -1.0, -0.1, 0.0, 1.0, 1.7e9, 1e300}) {
+    for (const bool is_static : {false, true}) {
+      GridEngine engine({.dimension = 3, .bounds = {{0, 0, 0}, {128, 128, 128}}, .cell = 1.0});
+      Object beam = make_object(1, Cuboid{{100, 2, 2}}, {64, 64, 64}, 1e9);
+      beam.is_static = is_static;
+      engine.add(beam);
+      const View view = [] {
+        View v = make_view(1, {5, 64, 64});
+        v.range = 12;
+        return v;
+      }();
+      Answers answers;
+      CAPTURE(first);
+      CAPTURE(is_static);
+      for (const double time : {first, first < 0.0 ? 0.0 : 2.0 * first + 1.0}) {
+        engine.query(time, {&view, 1}, answers);
+        CHECK(answers.views.at(0).visible == std::vector<ObjectId>{1});
+        beam.pose.position.y += 0.01;
+        engine.move(1, beam.pose);
+      }
+    }
+  }
+}
+
 }  // namespace gridcull::test
