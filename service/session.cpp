@@ -65,6 +65,16 @@ std::string Session::about() const {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+bool Session::OneFrame::next(Frame& out) {
+  std::swap(out, *frame);
+  const Frame& old = *frame;
+  const std::size_t room = old.bulk.ids.capacity() + old.bulk.poses.capacity() + old.set.capacity() +
+                           old.add.capacity() + old.remove.capacity() + old.viewers.capacity() +
+                           old.drop_viewers.capacity();
+  if (room > worth_keeping) *frame = {};
+  return true;
+}
+
 void Session::check_count(const Frame& frame) const {
   const std::size_t now = objects() + frame.add.size();
   if (now > frame.remove.size()) refuse_many(now - frame.remove.size(), limits_.objects);
@@ -93,6 +103,8 @@ const FrameReply& Session::apply(FrameRequest& request) {
   }
   check_count(request.frame);
   source_.frame = &request.frame;
+  // Each object moved in bulk once, and as much again that vectors grow by; small frames always.
+  source_.worth_keeping = 4 * objects() + 4096;
   const bool draws = begin_drawing();
   const std::optional<double> before = world().time();
   try {

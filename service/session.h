@@ -88,14 +88,13 @@ class Session {
   Explanation explain(const ExplainRequest& request) const;
 
  private:
-  /// Hands the frame in hand to the replay, and the replay's last one back.
+  /// Hands the frame in hand to the replay, and the replay's last one back, for its memory; not that of one which was
+  /// far larger than its world, as refused ones may be.
   class OneFrame final : public FrameSource {
    public:
     Frame* frame = nullptr;
-    bool next(Frame& out) override {
-      std::swap(out, *frame);
-      return true;
-    }
+    std::size_t worth_keeping = 0;  ///< entries
+    bool next(Frame& out) override;
   };
 
   bool begin_drawing();

@@ -126,6 +126,9 @@ void World::check_objects(const Frame& frame, Plan& plan) const {
 /// A simulator names its objects in the same order frame after frame: the last place is tried first.
 void World::check_moves(const Frame& frame, Plan& plan) const {
   const std::size_t count = frame.moves();
+  if (!frame.set.empty() && !frame.bulk.ids.empty()) {
+    throw Error(ErrorCode::bad_frame, source(frame) + "/set: expected moves in a list or in bulk, found both");
+  }
   std::size_t same = 0;
   while (same < count && same_place(same, frame.moved(same))) ++same;
   // Then they are as different as the last frame's.

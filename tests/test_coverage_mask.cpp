@@ -126,6 +126,26 @@ TEST_CASE("covered pixels lie inside the cone, and pixels well inside it are cov
   }
 }
 
+TEST_CASE("a ray that comes twice, or nearly, costs no pixel") {
+  Dice dice{std::mt19937_64(7)};
+  for (const double apart : {0.0, 1e-12, 1e-10, 1e-8, 1e-6}) {
+    CAPTURE(apart);
+    Stage s(ViewKind::all_round, {128}, dice);
+    const std::array<Vec3, 4> square{Vec3{10, -4, -4}, {10, 4, -4}, {10, 4, 4}, {10, -4, 4}};
+    const std::array<Vec3, 5> doubled{square[0], square[1], {10, 4, -4 + 8 * apart}, square[2], square[3]};
+    const auto covered_by = [&](const auto& rays) {
+      s.begin();
+      s.mask.cover_convex(rays.data(), static_cast<int>(rays.size()));
+      int pixels = 0;
+      each_pixel(s.mask, [&](const Pixel& p) { pixels += covered(s.mask, p); });
+      return pixels;
+    };
+    const int plain = covered_by(square);
+    CHECK(plain > 1000);
+    CHECK(covered_by(doubled) == plain);
+  }
+}
+
 TEST_CASE("a cone is open while one of its pixels is") {
   for (std::uint64_t seed = 0; seed < 8000; ++seed) {
     CAPTURE(seed);

@@ -177,6 +177,24 @@ TEST_CASE("scenes and options that cannot be are refused with their place in the
   CHECK(refusal([&] { session_of(open); }) == "bad_scene /objects/3/shape/radius");
 }
 
+TEST_CASE("a frame far larger than its world is not kept once it was refused") {
+  const Town town;
+  Session session = session_of(town.open());
+  FrameRequest request;
+  const auto send = [&](const Json& frame) {
+    const std::string bytes = encoded(frame, Encoding::cbor);
+    read_frame_request(WireRequest(bytes, Encoding::cbor), session.dimension(), request);
+    session.apply(request);
+  };
+  Json huge = town.frame(0);
+  huge.erase("set");
+  huge["set_ids"] = Json::binary(std::vector<std::uint8_t>(4'000'000, 0x77));
+  CHECK(refusal([&] { send(huge); }) != "");
+  for (std::size_t i = 0; i < 3; ++i) send(town.frame(i));
+  CHECK(request.frame.bulk.poses.capacity() < 10'000);
+  CHECK(session.last_frame().bulk.poses.capacity() < 10'000);
+}
+
 TEST_CASE("bulk moves in CBOR are the moves, bit for bit; what does not fit is refused") {
   const Town town;
   Session by_set = session_of(town.open()), by_bulk = session_of(town.open());
