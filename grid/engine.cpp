@@ -122,13 +122,21 @@ void GridEngine::draw_next(ViewerId viewer, DrawSink* sink) {
 
 const Lattice& GridEngine::lattice() const { return state_->world.lattice; }
 
+std::uint64_t GridEngine::State::list_bytes() const {
+  std::uint64_t bytes = (pushed.capacity() + pushed_hidden.capacity()) * sizeof(Pushed) + seen.capacity();
+  for (const auto* list : {&active, &waiting, &stale, &told, &jumped, &expired, &hiding}) {
+    bytes += list->capacity() * sizeof(Slot);
+  }
+  return bytes;
+}
+
 MemoryUse GridEngine::memory() const {
   const State& s = *state_;
   MemoryUse use;
   use.matrices = s.world.matrix.matrix_bytes() + s.world.tbv.matrix_bytes() + s.world.hollow.matrix_bytes() +
                  s.world.seen_in.bytes();
   use.entries = s.world.matrix.entry_bytes() + s.world.tbv.entry_bytes() + s.world.hollow.entry_bytes();
-  use.objects = s.world.objects.bytes() + s.expiries.bytes() + tiles().directory;
+  use.objects = s.world.objects.bytes() + s.expiries.bytes() + s.list_bytes() + tiles().directory;
   for (Slot slot = 0; slot < s.world.objects.size(); ++slot) {
     const ObjectState& state = s.world.objects[slot];
     if (state.shape) use.objects += state.shape->bytes();
@@ -139,6 +147,9 @@ MemoryUse GridEngine::memory() const {
     use.objects += silhouettes->shape_bytes();
   }
   for (const auto& task : s.tasks) use.viewers += task->bytes();
+  for (const ViewResult& result : s.results) {
+    use.viewers += sizeof(result) + (result.seen.capacity() + result.revealed.capacity()) * sizeof(Slot);
+  }
   return use;
 }
 

@@ -89,6 +89,8 @@ struct GridEngine::State {
   void leave_tiles(Slot slot);
   void set_outside(Slot slot, bool outside);
   Slot slot_of(ObjectId object) const;
+  /// Of the lists below.
+  std::uint64_t list_bytes() const;
 
   GridOptions options;
   GridWorld world;

@@ -98,7 +98,9 @@ void place_balls(const Outlook& from, const Window& window, const Balls& balls, 
   const Lanes tall = select(upright, part * load(balls.tall) + blur, grown);
   const Lanes beside = larger(root(centre.x * centre.x + centre.y * centre.y) - wide, zero);
   const Lanes above = larger(magnitude(centre.z) - tall, zero), square = product(centre, centre);
-  const Lanes key = select(upright, root(beside * beside + above * above), root(square) - grown);
+  // Ball and cylinder both hold the object: the farther of them says more.
+  const Lanes near_ball = root(square) - grown;
+  const Lanes key = select(upright, larger(near_ball, root(beside * beside + above * above)), near_ball);
   store(out.key, key);
   const unsigned there = (1u << balls.count) - 1u;
   out.kept = bits(key <= splat(from.limit)) & there;

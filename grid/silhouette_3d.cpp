@@ -13,14 +13,14 @@
 // them.
 // Shortcuts. What lies beyond a side of the one window has no pixel there: it is neither visible nor hides anything,
 // and is not pushed. Hidden by the rectangle about its ball, which holds every pixel that the object touches, an object
-// is hidden; so it is by the rectangle about its box where it stands upright, and its key is the distance of the
-// cylinder in that box, which holds it too (SilhouetteWorld::filling()). Keys and rectangles depend on nothing that the
-// walk finds out, so they are worked out eight at a time when a node is opened (mask_batch_body.h). When no test is
-// left, occluders change no answer. Its one pixel at its nearest point (or middle) being open, it is reported without
-// any outline: an answer that lets an object through needs no proof. It is as tight as the whole test, for the point
-// belongs to the object's hull, and for balls and boxes also to the nearest slice; rounding may take it one pixel
-// beside the outline. Objects nearer than the near plane are entered as occluders too, though not reported; nothing
-// beyond the range can hide what is within it.
+// is hidden; so it is by the rectangle about its box where it stands upright, and its key is the distance of its ball
+// or of the cylinder in that box, which holds it too (SilhouetteWorld::filling()), whichever is farther. Keys and
+// rectangles depend on nothing that the walk finds out, so they are worked out eight at a time when a node is opened
+// (mask_batch_body.h). When no test is left, occluders change no answer. Its one pixel at its nearest point (or middle)
+// being open, it is reported without any outline: an answer that lets an object through needs no proof. It is as tight
+// as the whole test, for the point belongs to the object's hull, and for balls and boxes also to the nearest slice;
+// rounding may take it one pixel beside the outline. Objects nearer than the near plane are entered as occluders too,
+// though not reported; nothing beyond the range can hide what is within it.
 //
 // Cost: nodes, objects and pixels in front of what is visible; what is behind covered pixels is met as nodes only.
 // The order inside a bucket and the shape of the index change no answer: a test depends on the occluders of lower
@@ -162,7 +162,8 @@ void Silhouette3D::walk() {
 }
 
 // A volume that is open somewhere is given up: its object is read and looked at like any other, when its own depth
-// has come, so that answers do not depend on who has a volume.
+// has come, so that answers seldom depend on who has a volume: where an object sticks out of its volume's ball (its own
+// ball is about another middle) it may be tested a little later, against more occluders, than without.
 void Silhouette3D::look_at_volume(const Entry& entry) {
   ++answer_->work.tbv_tests;
   const BallRows::Place place = entry.place;

@@ -51,9 +51,9 @@ class Story {
   bool chance(double p) { return random_.unit() < p; }
 
   void choose_times() {
-    static constexpr double starts[] = {0.0, 0.0, -3.0, 12.5, 1e6};
+    static constexpr double starts[] = {0.0, 0.0, -3.0, 12.5, 1e6, -1e3, 1.7e9};
     static constexpr double steps[] = {0.1, 1.0, 1.0 / 30.0, 0.25, 1e-6, 1e-9};
-    time_ = starts[random_.below(5)];
+    time_ = starts[random_.below(7)];
     usual_step_ = steps[random_.below(6)];
     uneven_ = chance(0.3);
     step_ = usual_step_;

@@ -188,6 +188,22 @@ TEST_CASE("memory: under 8 bytes a cell and 200 an object on 5,000 spheres") {
   }
 }
 
+TEST_CASE("memory: what waits to be settled at the next frame counts") {
+  GridEngine engine(plane());
+  constexpr ObjectId crowd = 1000;
+  for (ObjectId id = 0; id < crowd; ++id) {
+    engine.add(make_object(id, Disc{0.1}, {1.0 + 0.01 * static_cast<double>(id), 5, 0}, 1.0));
+  }
+  Answers answers;
+  engine.query(0.0, west, answers);
+  const std::uint64_t before = engine.memory().objects;
+  for (ObjectId id = 0; id < crowd; ++id) {
+    engine.move(id, {{1.0 + 0.01 * static_cast<double>(id), 5.01, 0}});
+  }
+  // From where each came, at least.
+  CHECK(engine.memory().objects >= before + crowd * sizeof(Vec3));
+}
+
 TEST_CASE("removed ids can be used again, by another shape at another place") {
   GridEngine engine(plane());
   furnish(engine);

@@ -77,7 +77,7 @@ Alone alone(const World& world, int k) {
   a.half = {wide, wide, tall};
   const double flat = std::sqrt(a.centre.x * a.centre.x + a.centre.y * a.centre.y);
   const double beside = std::max(0.0, flat - wide), above = std::max(0.0, std::fabs(a.centre.z) - tall);
-  a.key = std::sqrt(beside * beside + above * above);
+  a.key = std::max(a.key, std::sqrt(beside * beside + above * above));
   return a;
 }
 
