@@ -33,33 +33,17 @@
 #include <span>
 
 #include "gridcull/grid/ball_sections.h"
+#include "gridcull/grid/box_distance.h"
 #include "gridcull/grid/draw_volumes.h"
 
 namespace gridcull {
 namespace {
-
-double magnitude(const Vec3& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
 /// How much farther a solid's far end must be than its near end for slices to pay.
 constexpr double worth_slicing = 2.5;
 
 /// A mask is made of blocks of eight rows.
 int whole_blocks(int resolution) { return (resolution + 7) / 8 * 8; }
-
-/// Distances are rounded three or four times, each by at most 2^-52 of the coordinates that went in.
-constexpr double rounding = 0x1p-46;
-
-double distance_to_box(const Vec3& low, const Vec3& high) {
-  const auto gap = [&](int k) { return std::max({low[k], -high[k], 0.0}); };
-  const double x = gap(0), y = gap(1), z = gap(2);
-  return std::sqrt(x * x + y * y + z * z);
-}
-
-double farthest_of_box(const Vec3& low, const Vec3& high) {
-  const auto reach = [&](int k) { return std::max(std::fabs(low[k]), std::fabs(high[k])); };
-  const double x = reach(0), y = reach(1), z = reach(2);
-  return std::sqrt(x * x + y * y + z * z);
-}
 
 /// The point of a box that is nearest to the viewpoint, or the middle of something else; relative to the viewpoint.
 Vec3 front_of(const ConvexPiece& hull, const SightFrame& frame) {
@@ -113,7 +97,7 @@ void Silhouette3D::begin(const View& view) {
   sighted_ = none;
   mask_.set_outlook(outlook_);
   for (int k = 0; k < 3; ++k) outlook_.apex[k] = apex[k];
-  outlook_.apex_size = apex_size_, outlook_.rounding = rounding, outlook_.limit = limit_;
+  outlook_.apex_size = apex_size_, outlook_.rounding = distance_rounding, outlook_.limit = limit_;
   nodes_.clear();
   groups_.clear();
   entries_.clear();
@@ -121,7 +105,7 @@ void Silhouette3D::begin(const View& view) {
   rays_.clear();
   sliced_.clear();
   const Bounds box = world.lattice.box();
-  blur_ = rounding * (apex_size_ + magnitude(box.min) + magnitude(box.max));
+  blur_ = distance_rounding * (apex_size_ + magnitude(box.min) + magnitude(box.max));
   const double far = std::min(limit_, farthest_of_box(box.min - apex, box.max - apex));
   queue_.begin(std::min(far, distance_to_box(box.min - apex, box.max - apex)), far);
   const int top = shapes_->index.top();
@@ -244,8 +228,8 @@ bool Silhouette3D::open_as_ball(const LooseBall& ball, Sliced& object) {
 LooseBall Silhouette3D::bounding_ball(Slot slot, const SilhouetteWorld::Solid& solid) const {
   const Pose& pose = pose_of(slot);
   const Vec3 centre = to_world(pose, rotation_of(pose.orientation), solid.ball.centre);
-  return {centre, solid.ball.radius + rounding * (apex_size_ + magnitude(pose.position) + magnitude(solid.ball.centre) +
-                                                  solid.ball.radius)};
+  return {centre, solid.ball.radius + distance_rounding * (apex_size_ + magnitude(pose.position) +
+                                                           magnitude(solid.ball.centre) + solid.ball.radius)};
 }
 
 // The box around a solid, with the world's axes, is a first, cheap test.
@@ -254,7 +238,7 @@ bool Silhouette3D::open_solid(Slot slot, const SilhouetteWorld::Solid& solid, Sl
   if (mask_.open_towards(front_of(solid.outer, frame))) return true;
   const Rotation& r = frame.rotation;
   const Vec3 centre = frame.origin + r * solid.box_centre;
-  const double blur = rounding * (apex_size_ + magnitude(pose_of(slot).position) + magnitude(solid.box_half));
+  const double blur = distance_rounding * (apex_size_ + magnitude(pose_of(slot).position) + magnitude(solid.box_half));
   const Vec3 half = glm::abs(r.x) * solid.box_half.x + glm::abs(r.y) * solid.box_half.y +
                     glm::abs(r.z) * solid.box_half.z + Vec3(blur);
   if (!mask_.open_box(centre - half, centre + half)) return false;

@@ -11,6 +11,7 @@
 
 #include <glm/common.hpp>
 
+#include "gridcull/grid/box_distance.h"
 #include "gridcull/grid/silhouette_3d.h"
 
 namespace gridcull {
@@ -19,17 +20,6 @@ namespace {
 /// Entries that are gathered into a group, and how many are worth a test: it costs as much as those of the few entries
 /// that it might spare.
 constexpr std::uint32_t few = 32, worth_testing = 4;
-
-/// Distances are rounded three or four times, each by at most 2^-52 of the coordinates that went in.
-constexpr double rounding = 0x1p-46;
-
-double magnitude(const Vec3& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
-
-double distance_to_box(const Vec3& low, const Vec3& high) {
-  const auto gap = [&](int k) { return std::max({low[k], -high[k], 0.0}); };
-  const double x = gap(0), y = gap(1), z = gap(2);
-  return std::sqrt(x * x + y * y + z * z);
-}
 
 FrontQueue::Kind kind_of(const BallRows::Item& item) {
   return (item.marks & SilhouetteWorld::is_hidden) != 0 ? FrontQueue::Kind::volume : FrontQueue::Kind::object;
@@ -143,7 +133,7 @@ void Silhouette3D::push_object(BallRows::Place place, const LooseBall& ball, boo
 }
 
 double Silhouette3D::grown(const LooseBall& ball) const {
-  return ball.radius + rounding * (apex_size_ + magnitude(ball.centre) + ball.radius);
+  return ball.radius + distance_rounding * (apex_size_ + magnitude(ball.centre) + ball.radius);
 }
 
 void Silhouette3D::weigh(const BallRows::Item& item, BallRows::Place place) {
