@@ -150,6 +150,8 @@ void Silhouette3D::walk() {
 // ball is about another middle) it may be tested a little later, against more occluders, than without.
 void Silhouette3D::look_at_volume(const Entry& entry) {
   ++answer_->work.tbv_tests;
+  // Most volumes that are met belong to a crowd deep behind something, and the pixels about them say so.
+  if (entry.face >= 0 && !open_pixels(entry)) return;
   const BallRows::Place place = entry.place;
   const Slot slot = shapes_->index.item(place).slot;
   const LooseBall& ball = shapes_->index.item(place).ball;
