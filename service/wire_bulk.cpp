@@ -109,6 +109,10 @@ void read_bulk_ids(const JsonRef& json, std::vector<ObjectId>& ids) {
     fine &= ids[i] != no_id;
   }
   if (!fine) json.refuse_with("expected ids of at most 4294967294, found 4294967295");
+  if (const auto at = first_repeated(ids)) {
+    json.refuse_with("expected each id once, found " + std::to_string(ids[*at]) + " twice, the second time at place " +
+                     std::to_string(*at));
+  }
 }
 
 /// Moves are read so many at a time, all their parts, so that what is written stays near.

@@ -135,15 +135,20 @@ double degrees_of(double radians) {
   return nearest;
 }
 
-void refuse_repeated(const std::vector<JsonRef>& list, const std::vector<std::uint32_t>& ids) {
-  if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end()) return;
+std::optional<std::size_t> first_repeated(std::span<const std::uint32_t> ids) {
+  if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end()) return std::nullopt;
   std::vector<std::uint32_t> order(ids.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return ids[a] != ids[b] ? ids[a] < ids[b] : a < b; });
   const auto same = [&](auto a, auto b) { return ids[a] == ids[b]; };
   const auto at = std::adjacent_find(order.begin(), order.end(), same);
-  if (at != order.end())
-    list[*(at + 1)].refuse_with("expected each id once, found " + std::to_string(ids[*at]) + " twice");
+  return at == order.end() ? std::nullopt : std::optional<std::size_t>(*(at + 1));
+}
+
+void refuse_repeated(const std::vector<JsonRef>& list, const std::vector<std::uint32_t>& ids) {
+  if (const auto at = first_repeated(ids)) {
+    list[*at].refuse_with("expected each id once, found " + std::to_string(ids[*at]) + " twice");
+  }
 }
 
 SceneObject read_object(const JsonRef& json, int dimension, MeshShelf* meshes) {

@@ -1,6 +1,8 @@
 // Objects, moves and viewers as JSON: what scenes and frames share.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,8 @@ void append_object(std::string& out, const SceneObject& object, int dimension);
 void append_move(std::string& out, const ObjectMove& move, int dimension);
 void append_viewer(std::string& out, const ViewerUpdate& viewer, int dimension);
 
+/// The place at which an id stands the second time: of the least such id.
+std::optional<std::size_t> first_repeated(std::span<const std::uint32_t> ids);
 /// Refuses an id that stands twice in `list`; ids[i] is that of list[i].
 void refuse_repeated(const std::vector<JsonRef>& list, const std::vector<std::uint32_t>& ids);
 

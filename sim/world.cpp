@@ -20,9 +20,10 @@ std::string at(const Frame& frame, std::string_view list, std::size_t i, std::st
   return source(frame) + "/" + std::string(list) + "/" + std::to_string(i) + std::string(key) + ": ";
 }
 
-[[noreturn]] void refuse_unknown(const std::string& place, std::string_view what, std::uint32_t id) {
-  throw Error(ErrorCode::unknown_object,
-              place + "expected the id of " + std::string(what) + " that is there, found " + std::to_string(id));
+[[noreturn]] void refuse_unknown(const std::string& place, std::string_view what, std::uint32_t id,
+                                 const std::string& which = "") {
+  throw Error(ErrorCode::unknown_object, place + "expected the id of " + std::string(what) + " that is there, found " +
+                                             std::to_string(id) + which);
 }
 
 [[noreturn]] void refuse(const std::string& place, const std::string& why) {
@@ -31,6 +32,14 @@ std::string at(const Frame& frame, std::string_view list, std::size_t i, std::st
 
 [[noreturn]] void refuse_twice(const std::string& place, std::uint32_t id) {
   refuse(place, "expected each id once, found " + std::to_string(id) + " twice");
+}
+
+/// Ids in bulk are one string of bytes, which has no places that a pointer could name.
+constexpr const char* bulk_ids = "/set_ids: ";
+
+[[noreturn]] void refuse_unknown_move(const Frame& frame, std::size_t i) {
+  if (!frame.set.empty()) refuse_unknown(at(frame, "set", i, "/id"), "an object", frame.moved(i));
+  refuse_unknown(source(frame) + bulk_ids, "an object", frame.moved(i), " at place " + std::to_string(i));
 }
 
 /// What a place may be away from the origin along an axis, metres (FORMATS: magnitudes of numbers).
@@ -138,9 +147,9 @@ void World::check_moves(const Frame& frame, Plan& plan) const {
   for (std::size_t i = 0; i < count; ++i) {
     const ObjectId id = frame.moved(i);
     const bool as_before = frame.remove.empty() && same_place(i, id);
-    if (!as_before && !has_after(id, plan)) refuse_unknown(at(frame, "set", i, "/id"), "an object", id);
+    if (!as_before && !has_after(id, plan)) refuse_unknown_move(frame, i);
     if (!twice || plan.set.insert(id).second) continue;
-    refuse_twice(frame.set.empty() ? source(frame) + "/set_ids: " : at(frame, "set", i, "/id"), id);
+    refuse_twice(frame.set.empty() ? source(frame) + bulk_ids : at(frame, "set", i, "/id"), id);
   }
 }
 

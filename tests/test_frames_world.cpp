@@ -212,6 +212,16 @@ TEST_CASE("frames made by a program are checked as files are") {
   Frame nameless;
   nameless.add.push_back({{no_id, Disc{1.0}, {}, {}, true, false}, "", {}});
   CHECK(refused(nameless, ErrorCode::bad_frame) == "frame: /add/0/id: expected an id");
+  Frame bulk;
+  bulk.bulk = {{5, 77}, std::vector<Pose>(2), {}, true, false};
+  CHECK(refused(bulk, ErrorCode::unknown_object) ==
+        "frame: /set_ids: expected the id of an object that is there, found 77 at place 1");
+  bulk.bulk.ids = {5, 5};
+  CHECK(refused(bulk, ErrorCode::bad_frame) == "frame: /set_ids: expected each id once, found 5 twice");
+  Frame both;
+  both.set.push_back({5, Vec3{1, 2, 0}, {}, {}});
+  both.bulk = {{5}, std::vector<Pose>(1), {}, true, false};
+  CHECK(refused(both, ErrorCode::bad_frame) == "frame: /set: expected moves in a list or in bulk, found both");
 }
 
 TEST_CASE("scenes made by a program are checked too") {
