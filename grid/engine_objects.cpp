@@ -176,8 +176,12 @@ void GridEngine::State::hang(Slot slot) {
     return;
   }
   shapes.place(slot, pose);
+  shapes.rows.remove(slot);
   if (!shapes.follow(slot, pose)) set_outside(slot, !shapes.enter(slot, shapes.ball_at(slot, pose), room(slot)));
-  if (!world.objects[slot].moves()) return;
+  if (!world.objects[slot].moves()) {
+    if (options.dimension == 2) shapes.note_static(slot);
+    return;
+  }
   const float leash = shapes.loosen(slot);
   if (leash < 0.0F) return;
   // Not all at full length: whoever is of a size and a speed would come back in the same frames.
@@ -202,7 +206,7 @@ void GridEngine::State::leave_grid(Slot slot) {
   ObjectState& state = world.objects[slot];
   if (state.place == Place::hidden) take_volume(slot);
   if (world.silhouettes) {
-    world.silhouettes->index.erase(slot);
+    world.silhouettes->leave(slot);
   } else {
     world.matrix.remove(state.is_static, state.entries);
   }
@@ -266,7 +270,7 @@ bool GridEngine::State::lengthen_term(Slot slot) {
 // them is looked at in every frame.
 bool GridEngine::State::looks_deep(const LooseBall& ball) const {
   const LooseIndex& index = world.silhouettes->index;
-  return index.takes(ball) && !index.lately_opened(ball);
+  return index.takes(ball) && !index.lately_opened(ball, options.dimension == 2 ? SilhouetteWalk2D::crowd : 0);
 }
 
 TbvMatrix::Ball GridEngine::State::volume(Slot slot) const {

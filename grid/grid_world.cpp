@@ -15,7 +15,7 @@ Lattice one_cell(const Lattice& lattice) {
 }
 
 /// Side of the finest nodes wished for: 2D walks take up to 16 objects at once, so finer nodes would only be passed.
-double node_side(const Lattice& lattice) { return (lattice.dimension() == 2 ? 16.0 : 4.0) * lattice.cell(); }
+double node_side(const Lattice& lattice) { return (lattice.dimension() == 2 ? 32.0 : 4.0) * lattice.cell(); }
 
 }  // namespace
 

@@ -82,6 +82,16 @@ LooseIndex::NodeId LooseIndex::node_of(const Vec3& centre, int level) const {
           dimension_ == 3 ? along(centre.z, box_.min.z, fine.nz) : 0};
 }
 
+bool LooseIndex::lately_opened(const LooseBall& ball, std::uint32_t crowd) const {
+  NodeId id = node_of(ball.centre, level_for(ball.radius));
+  for (bool is_home = true; id.level <= top(); id = {id.level + 1, id.x >> 1, id.y >> 1, id.z >> 1}, is_home = false) {
+    const auto level = static_cast<std::size_t>(id.level);
+    if (!is_home && node(id).below > crowd) return false;
+    if (!opened_[level].empty() && frame_ - opened_[level][levels_[level].index(id, dimension_)] <= lately) return true;
+  }
+  return false;
+}
+
 Bounds LooseIndex::loose_box(const NodeId& id) const {
   const double s = side(id.level);
   const double grown = 0.5 * s + margin_;

@@ -135,12 +135,9 @@ class LooseIndex {
     const auto level = static_cast<std::size_t>(id.level);
     std::atomic_ref(opened_[level][levels_[level].index(id, dimension_)]).store(frame_, std::memory_order_relaxed);
   }
-  /// Whether the node that a ball (takes(ball)) would hang in was opened in this frame or one of the last few.
-  bool lately_opened(const LooseBall& ball) const {
-    const NodeId id = node_of(ball.centre, level_for(ball.radius));
-    const auto level = static_cast<std::size_t>(id.level);
-    return !opened_[level].empty() && frame_ - opened_[level][levels_[level].index(id, dimension_)] <= lately;
-  }
+  /// Whether the node that a ball (takes(ball)) would hang in was opened in this frame or one of the last few, or one
+  /// above it with at most `crowd` entries, which a walk takes with all that is below.
+  bool lately_opened(const LooseBall& ball, std::uint32_t crowd = 0) const;
 
   /// Hints that the slot will be asked for soon.
   void prefetch(Slot slot) const { __builtin_prefetch(&entries_[slot]); }

@@ -116,22 +116,62 @@ void Sight2D::hide_behind_chord(const Vec2& centre, double distance, double radi
 
 bool Sight2D::hides_square(const Vec2& centre, double half) const {
   const double grown = half + disc_margin * (std::fabs(centre.x) + std::fabs(centre.y)) + 2.0 * blur_;
-  const bool below = centre.y<centre.x, right = centre.y> - centre.x;
-  const int home = below ? (right ? 0 : 3) : (right ? 1 : 2);
-  const Part part = part_in(home, turned(home, centre), grown);
-  if (!part.hidden) return false;
-  // It lies ahead of the axis, so it reaches no farther than into the neighbours.
-  const int next = (home + 1) & 3, last = (home + 3) & 3;
-  return (part.to <= 1.0 || part_in(next, turned(next, centre), grown).hidden) &&
-         (part.from >= -1.0 || part_in(last, turned(last, centre), grown).hidden);
+  return hides_grown({centre - Vec2(grown), centre + Vec2(grown)});
 }
 
-Sight2D::Part Sight2D::part_in(int quadrant, const Vec2& centre, double half) const {
-  if (!(centre.x - half > 0.0)) return {};
-  const double near = 1.0 / (centre.x - half), far = 1.0 / (centre.x + half);
-  const double low = centre.y - half, high = centre.y + half;
-  const double from = low * (low < 0.0 ? near : far), to = high * (high < 0.0 ? far : near);
+bool Sight2D::hides_box(const Vec2& low, const Vec2& high) const {
+  const Vec2 far = glm::max(glm::abs(low), glm::abs(high));
+  const double grown = disc_margin * (far.x + far.y) + 2.0 * blur_;
+  return hides_grown({low - Vec2(grown), high + Vec2(grown)});
+}
+
+bool Sight2D::hides_grown(const Box2D& box) const {
+  const Vec2 centre = box.low + box.high;
+  const bool below = centre.y<centre.x, right = centre.y> - centre.x;
+  const int home = below ? (right ? 0 : 3) : (right ? 1 : 2);
+  const Part part = part_in(home, box);
+  if (!part.hidden) return false;
+  // It lies ahead of the axis, so it reaches no farther than into the neighbours.
+  return (part.to <= 1.0 || part_in((home + 1) & 3, box).hidden) &&
+         (part.from >= -1.0 || part_in((home + 3) & 3, box).hidden);
+}
+
+Sight2D::Part Sight2D::part_in(int quadrant, const Box2D& box) const {
+  const Vec2 a = turned(quadrant, box.low), b = turned(quadrant, box.high);
+  const Vec2 least = glm::min(a, b), most = glm::max(a, b);
+  if (!(least.x > 0.0)) return {};
+  const double near = 1.0 / least.x, far = 1.0 / most.x;
+  const double from = least.y * (least.y < 0.0 ? near : far), to = most.y * (most.y < 0.0 ? far : near);
   return {buffer_.nearer(quadrant, std::max(from, -1.0), std::min(to, 1.0), near), from, to};
+}
+
+// Without a branch, for all lanes. Most boxes lie within one quadrant: there they have X > 0 and |Y| <= X throughout.
+void Sight2D::spans_of(const BoxLanes& world, std::array<BoxSpan, BoxLanes::count>& out) const {
+  BoxLanes box;  // relative to the viewer and grown
+  for (std::size_t i = 0; i < BoxLanes::count; ++i) {
+    const double lx = world.low_x[i] - eye_.x, ly = world.low_y[i] - eye_.y;
+    const double hx = world.high_x[i] - eye_.x, hy = world.high_y[i] - eye_.y;
+    const double far_x = std::max(std::fabs(lx), std::fabs(hx)), far_y = std::max(std::fabs(ly), std::fabs(hy));
+    const double grown = disc_margin * (far_x + far_y) + 2.0 * blur_;
+    box.low_x[i] = lx - grown, box.low_y[i] = ly - grown;
+    box.high_x[i] = hx + grown, box.high_y[i] = hy + grown;
+  }
+  BoxLanes::Lanes home, least, most, low, high;  // along the quadrant's axis, and across it
+  for (std::size_t i = 0; i < BoxLanes::count; ++i) {
+    const double lx = box.low_x[i], ly = box.low_y[i], hx = box.high_x[i], hy = box.high_y[i];
+    const bool is_east = (lx > 0.0) & (hy <= lx) & (ly >= -lx), is_north = (ly > 0.0) & (hx <= ly) & (lx >= -ly);
+    const bool is_west = (hx < 0.0) & (ly >= hx) & (hy <= -hx), is_south = (hy < 0.0) & (lx >= hy) & (hx <= -hy);
+    home[i] = is_east ? 0.0 : is_north ? 1.0 : is_west ? 2.0 : is_south ? 3.0 : -1.0;
+    least[i] = is_east ? lx : is_north ? ly : is_west ? -hx : -hy;
+    most[i] = is_east ? hx : is_north ? hy : is_west ? -lx : -ly;
+    low[i] = is_east ? ly : is_north ? -hx : is_west ? -hy : lx;
+    high[i] = is_east ? hy : is_north ? -lx : is_west ? -ly : hx;
+  }
+  for (std::size_t i = 0; i < BoxLanes::count; ++i) {
+    const double near = 1.0 / least[i], far = 1.0 / most[i];
+    const double from = low[i] * (low[i] < 0.0 ? near : far), to = high[i] * (high[i] < 0.0 ? far : near);
+    out[i] = {std::max(from, -1.0), std::min(to, 1.0), near, static_cast<int>(home[i])};
+  }
 }
 
 bool Sight2D::shows_box(const Vec2& low, const Vec2& high) const {

@@ -6,12 +6,15 @@
 // that: with |centre|^2 - radius^2 at least 2e-10 d^2, the tangent points and the chord are off by less than 4 u d^2 /
 // (1.4e-5 d) < 4e-11 d. Claim (range). What lies beyond the range is neither seen nor can it hide what is within: tests
 // are clipped to the range's circle, occluders need not be. Claim (field of view). Slopes outside are closed from the
-// start. Claim (squares). The slopes of a square lie between those of its corners, its w is nowhere more than where it
-// is nearest along the axis; what the buffer is nearer than that all over these slopes hides it. It is grown by 1e-10
-// of the distance and two ties, as discs are; roundings of some u are far below that.
+// start. Claim (boxes). The slopes of a box with sides along the axes lie between those of its corners, its w is
+// nowhere more than where it is nearest along the axis; what the buffer is nearer than that all over these slopes hides
+// it. It is grown by 1e-10 of the distance and two ties, as discs are; roundings of some u are far below that.
 #pragma once
 
+#include <array>
+
 #include "gridcull/core/view_volume.h"
+#include "gridcull/grid/box_lanes_2d.h"
 #include "gridcull/grid/slope_buffer.h"
 
 namespace gridcull {
@@ -43,6 +46,17 @@ class Sight2D {
 
   /// A cheap test: whether all of a square with sides along the axes is behind the buffer for sure.
   bool hides_square(const Vec2& centre, double half) const;
+  /// The same for a box.
+  bool hides_box(const Vec2& low, const Vec2& high) const;
+  /// What hides_box() asks the buffer about a box that lies within one quadrant (others: quadrant -1).
+  struct BoxSpan {
+    double from = 0.0, to = 0.0;  ///< slopes
+    double near = 0.0;            ///< its greatest w
+    int quadrant = -1;
+  };
+  bool hides_span(const BoxSpan& span) const { return buffer_.nearer(span.quadrant, span.from, span.to, span.near); }
+  /// Of eight boxes of the world at once.
+  void spans_of(const BoxLanes& world, std::array<BoxSpan, BoxLanes::count>& out) const;
 
   /// Whether something in the box may be visible. Closed box; false only if all of it is hidden.
   bool shows_box(const Vec2& low, const Vec2& high) const;
@@ -73,12 +87,13 @@ class Sight2D {
   double blur() const { return blur_; }
 
  private:
-  /// The part of a square in one quadrant (in whose frame it is given): slopes as if the quadrant had no borders.
+  /// The part of a box in one quadrant: slopes as if the quadrant had no borders.
   struct Part {
     bool hidden = false;
     double from = 0.0, to = 0.0;
   };
-  Part part_in(int quadrant, const Vec2& centre, double half) const;
+  Part part_in(int quadrant, const Box2D& box) const;
+  bool hides_grown(const Box2D& box) const;
   bool hide_behind_wide_edge(const Bearing& from, const Bearing& to, const EdgeLine& line, std::uint32_t owner);
   void hide_behind_chord(const Vec2& centre, double distance, double radius, std::uint32_t owner);
 

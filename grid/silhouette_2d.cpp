@@ -46,8 +46,7 @@ bool Silhouettes2D::enter(Slot slot, const Placed2D& object, bool occluder) {
   const double square = glm::dot(centre, centre);
   const Sight2D::Disc where = sight_.look_at_disc(centre, square, object.radius);
   if (where == Sight2D::Disc::hidden) return false;
-  const double inner = sight_.range() * (1.0 - 0x1p-48) - object.radius;
-  Candidate c{object, slot, false, !(inner > 0.0 && square < inner * inner)};
+  Candidate c{object, slot, false, !within_range(square, object.radius)};
   if (where == Sight2D::Disc::around && holds_viewer(object)) {
     c.seen = true;
   } else if (object.outline != nullptr) {
@@ -56,6 +55,24 @@ bool Silhouettes2D::enter(Slot slot, const Placed2D& object, bool occluder) {
     c.seen = where == Sight2D::Disc::around && volume_->may_touch_ball({object.centre, 0.0}, object.radius);
     if (occluder) sight_.hide_behind_disc(centre, object.radius, static_cast<std::uint32_t>(candidates_.size()));
   }
+  candidates_.push_back(c);
+  return true;
+}
+
+// An object that may hold the viewer or seems tiny needs its disc (the box is grown by far more than a tie and the
+// roundings here); so does a disc, and what reaches beyond the range.
+bool Silhouettes2D::enter_boxed(Slot slot, const Placed2D& object, bool occluder, const Box2D& box) {
+  const Vec2 centre = object.centre - sight_.eye();
+  const double square = glm::dot(centre, centre);
+  const Vec2 low = box.low - sight_.eye(), high = box.high - sight_.eye();
+  const double gap = std::max({low.x, -high.x, low.y, -high.y});
+  const bool clear = gap > 1e-9 * (std::fabs(centre.x) + std::fabs(centre.y) + object.radius) + 4.0 * sight_.blur();
+  if (!clear || object.outline == nullptr || !within_range(square, object.radius) ||
+      Sight2D::seems_tiny(square, object.radius)) {
+    return enter(slot, object, occluder);
+  }
+  Candidate c{object, slot, false, false};
+  if (!enter_outline(c, occluder)) return false;
   candidates_.push_back(c);
   return true;
 }

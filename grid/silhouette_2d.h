@@ -38,6 +38,10 @@ class Silhouettes2D {
   /// Enters an object (once a slot). False: it is hidden for good. The rider's object is not to be entered.
   bool enter(Slot slot, const Placed2D& object, bool occluder);
 
+  /// The same for an object whose box (in the world) is known: where that is clear of the viewer, the disc around the
+  /// object has nothing more to say.
+  bool enter_boxed(Slot slot, const Placed2D& object, bool occluder, const Box2D& box);
+
   /// Whether something in a closed disc or box of the world may still be visible.
   bool shows_disc(const Vec2& centre, double radius) const;
   bool shows_box(const Vec2& low, const Vec2& high) const {
@@ -45,6 +49,7 @@ class Silhouettes2D {
   }
   /// A cheap test: whether a square of the world with sides along the axes is hidden for sure.
   bool hides_square(const Vec2& centre, double half) const { return sight_.hides_square(centre - sight_.eye(), half); }
+  bool hides_box(const Box2D& box) const { return sight_.hides_box(box.low - sight_.eye(), box.high - sight_.eye()); }
 
   /// Appends the slots of what is visible, in no order that means anything.
   void finish(std::vector<Slot>& visible);
@@ -61,6 +66,11 @@ class Silhouettes2D {
     bool straddles = false;  ///< may stick out of the range
   };
 
+  /// Whether all of an object `square` from the viewer is within the range.
+  bool within_range(double square, double radius) const {
+    const double inner = sight_.range() * (1.0 - 0x1p-48) - radius;
+    return inner > 0.0 && square < inner * inner;
+  }
   bool enter_outline(Candidate& c, bool occluder);
   bool hide_behind_outline(Facing back, std::uint32_t owner);
   bool hide_behind_parts(const Outline2D& outline, std::uint32_t owner);

@@ -86,6 +86,8 @@ void draw_nodes(const LooseIndex& index, const WalkedNodes& nodes, DrawSink& sin
     if (index.node(id).first != none || !parents.contains({id.level, id.x, id.y, id.z})) draw(CellLayer::visited, id);
   }
   for (const LooseIndex::NodeId& id : nodes.hidden) draw(CellLayer::hidden, id);
+  for (const Box2D& box : nodes.opened_rows) sink.cells(CellLayer::visited, Vec3(box.low, 0.0), Vec3(box.high, 0.0));
+  for (const Box2D& box : nodes.hidden_rows) sink.cells(CellLayer::hidden, Vec3(box.low, 0.0), Vec3(box.high, 0.0));
 }
 
 std::vector<Vec2> seen_region(const SlopeBuffer& buffer, const Vec2& eye, double reach) {

@@ -29,8 +29,9 @@ void SilhouetteTask2D::run(GridWorld& world, const View& view, Answer& answer, V
   walked_.clear();
   walk_.note_nodes(draw != nullptr ? &walked_ : nullptr);
   walk_.run(
-      world.silhouettes->index, world.outside, silhouettes_, answer.work, [this](Slot slot) { ask(slot); },
-      [this](const BallRows::Item& item) { meet(item); });
+      world.silhouettes->index, world.silhouettes->rows, world.outside, silhouettes_, answer.work,
+      [this](Slot slot) { ask(slot); }, [this](const BallRows::Item& item) { meet(item); },
+      [this](Slot slot, bool occluder, const Box2D& box) { meet_static(slot, occluder, box); });
   const auto walked = std::chrono::steady_clock::now();
   answer.work.occluders = silhouettes_.candidates();
   answer.work.rasters = silhouettes_.sight().buffer().size();
@@ -72,6 +73,11 @@ void SilhouetteTask2D::meet(const BallRows::Item& item) {
   std::vector<Vec2>& points = points_of(result_->revealed.size());
   result_->revealed.push_back(slot);
   silhouettes_.enter(slot, shapes.outlines.place(slot, pose, points), occluder);
+}
+
+void SilhouetteTask2D::meet_static(Slot slot, bool occluder, const Box2D& box) {
+  if (slot == rides_) return;
+  silhouettes_.enter_boxed(slot, world_->silhouettes->outlines.at(slot), occluder, box);
 }
 
 std::vector<Vec2>& SilhouetteTask2D::points_of(std::size_t revealed) {

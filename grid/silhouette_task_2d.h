@@ -19,6 +19,7 @@ class SilhouetteTask2D final : public ViewAnswerer {
  private:
   void ask(Slot slot);
   void meet(const BallRows::Item& item);
+  void meet_static(Slot slot, bool occluder, const Box2D& box);
   void draw_all(DrawSink& sink) const;
   /// Points of the revealed object with this number, which stay until the view is answered.
   std::vector<Vec2>& points_of(std::size_t revealed);

@@ -1,6 +1,7 @@
 #include "gridcull/grid/silhouette_walk_2d.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace gridcull {
@@ -19,10 +20,13 @@ LooseIndex::NodeId child_of(const LooseIndex::NodeId& id, int child) {
 
 // Boxes of lower nodes are worked out from their parents', a rounding a level. Each is far below the slack that
 // loose_box() adds, and that is doubled here.
-void SilhouetteWalk2D::begin(const LooseIndex& index, std::span<const Slot> outside, const Sight2D& sight) {
+void SilhouetteWalk2D::begin(const LooseIndex& index, const StaticRows2D& rows, std::span<const Slot> outside,
+                             const Sight2D& sight) {
   index_ = &index;
+  static_rows_ = &rows;
   sight_ = &sight;
   spots_.clear();
+  row_spots_.clear();
   pushed_.clear();
   rows_.clear();  // a walk that ended in an exception may have left some
   const double side = index.side(index.top());
@@ -37,9 +41,14 @@ void SilhouetteWalk2D::begin(const LooseIndex& index, std::span<const Slot> outs
     spots_.push_back({id, Vec2(box.centre())});
   }
   limit_ = sight.range() * (1.0 + 1e-9) + sight.blur();
+  if (!rows.empty()) {
+    const Box2D& box = rows.box();
+    far = std::max(far, glm::length(glm::max(glm::abs(box.low - sight.eye()), glm::abs(box.high - sight.eye()))));
+  }
   queue_.begin(std::min(far, sight.range()));
   for (std::size_t i = 0, tops = spots_.size(); i < tops; ++i) take(Spot(spots_[i]), index.node(spots_[i].id));
   push_rows();
+  if (!rows.empty()) push_row({{rows.top(), 0}, rows.box(), {}, false});
   for (const Slot slot : outside) push(index.item(index.place_of(slot)), index.place_of(slot));
 }
 
@@ -107,6 +116,50 @@ void SilhouetteWalk2D::push(const BallRows::Item& item, BallRows::Place place) {
   if (!(square <= most * most)) return;
   queue_.push_object(std::sqrt(square) - item.ball.radius, item.slot, place);
   pushed_.push_back(item.slot);
+}
+
+// The lowest rows wait until most of what is before their middle has been met: who is asked about earlier is hidden
+// less often.
+void SilhouetteWalk2D::push_row(const RowSpot& spot) {
+  const double square = square_of(spot.box);
+  if (square > limit_ * limit_) return;
+  static_rows_->prefetch(spot.id);
+  queue_.push_node(std::sqrt(square), is_row | static_cast<std::uint32_t>(row_spots_.size()));
+  row_spots_.push_back(spot);
+}
+
+void SilhouetteWalk2D::push_member(const RowSpot& spot, Slot slot) {
+  const double square = square_of(spot.box);
+  if (square > limit_ * limit_) return;
+  queue_.push_object(std::sqrt(square), slot, is_row | static_cast<std::uint32_t>(row_spots_.size()));
+  row_spots_.push_back(spot);
+  pushed_.push_back(slot);
+}
+
+void SilhouetteWalk2D::open_row(RowSpot spot, const Silhouettes2D& silhouettes, WorkCounts& work) {
+  if (hides(silhouettes, spot)) {
+    ++work.cells_hidden;
+    if (noted_ != nullptr) noted_->hidden_rows.push_back(spot.box);
+    return;
+  }
+  ++work.cells_visited;
+  const StaticRows2D::Row& row = static_rows_->row(spot.id);
+  const bool has_members = spot.id.level == 0;
+  if (has_members) work.object_tests += static_cast<std::uint64_t>(std::popcount(row.there));
+  if (noted_ != nullptr && has_members) noted_->opened_rows.push_back(spot.box);
+  sight_->spans_of(row.boxes, spans_);
+  for (unsigned left = row.there; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const RowSpot of_lane{{spot.id.level - 1, row.what[lane]},
+                          StaticRows2D::box_of(row, lane),
+                          spans_[lane],
+                          (row.occluders >> lane & 1) != 0};
+    if (!has_members) {
+      push_row(of_lane);
+    } else if (!hides(silhouettes, of_lane)) {
+      push_member(of_lane, row.what[lane]);
+    }
+  }
 }
 
 }  // namespace gridcull

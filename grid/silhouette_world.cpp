@@ -117,7 +117,7 @@ void SilhouetteWorld::set_filling(Slot slot, const Shape& shape) {
 }
 
 void SilhouetteWorld::remove(Slot slot) {
-  index.erase(slot);
+  leave(slot);
   if (index.dimension() == 2) outlines.remove(slot);
   const std::shared_ptr<const Solid>& solid = bodies_[slot].solid;
   if (solid.use_count() == 1) boxes_.erase(key_of(solid->size));
@@ -134,8 +134,34 @@ bool SilhouetteWorld::enter(Slot slot, LooseBall ball, double room) {
   return false;
 }
 
+// A disc's box is rounded by less than it is grown when it is asked about (sight_2d.h).
+Box2D SilhouetteWorld::box_of(Slot slot) const {
+  const Placed2D& object = outlines.at(slot);
+  if (object.outline == nullptr) return {object.centre - Vec2(object.radius), object.centre + Vec2(object.radius)};
+  Box2D box{object.points[0], object.points[0]};
+  for (std::size_t i = 1, count = object.outline->points().size(); i < count; ++i) {
+    box.low = glm::min(box.low, object.points[i]);
+    box.high = glm::max(box.high, object.points[i]);
+  }
+  return box;
+}
+
+void SilhouetteWorld::build_rows() {
+  members_.clear();
+  rows.for_each([&](Slot slot, bool occluder, const Box2D& box) { members_.push_back({slot, occluder, box}); });
+  for (const Slot slot : unsettled_) {
+    if (!index.holds(slot)) continue;  // noted twice
+    members_.push_back({slot, (index.marks(slot) & is_occluder) != 0, box_of(slot)});
+    index.erase(slot);
+  }
+  rows.build(members_);
+  unsettled_.clear();
+  age_ = 0;
+}
+
 std::uint64_t SilhouetteWorld::shape_bytes() const {
-  std::uint64_t bytes = outlines.bytes() + bodies_.capacity() * sizeof(Body);
+  std::uint64_t bytes = outlines.bytes() + rows.bytes() + unsettled_.capacity() * sizeof(Slot) +
+                        members_.capacity() * sizeof(StaticRows2D::Member) + bodies_.capacity() * sizeof(Body);
   for (const Body& body : bodies_) {
     if (!body.solid) continue;
     const std::uint64_t all = sizeof(Solid) + body.solid->pieces.bytes() + body.solid->outer.bytes();

@@ -16,6 +16,7 @@
 #include "gridcull/grid/loose_index.h"
 #include "gridcull/grid/occluder_pieces.h"
 #include "gridcull/grid/outline_store.h"
+#include "gridcull/grid/static_rows_2d.h"
 
 namespace gridcull {
 
@@ -26,6 +27,11 @@ class SilhouetteWorld {
       : index(dimension, box, cell), bound_(bound) {}
 
   void reserve(std::size_t slots);
+  /// Takes the slot out of the index or its row.
+  void leave(Slot slot) {
+    index.erase(slot);
+    rows.remove(slot);
+  }
   /// Keeps what the shape needs computed once.
   void add(Slot slot, const Shape& shape, bool occluder);
   void remove(Slot slot);
@@ -126,10 +132,29 @@ class SilhouetteWorld {
     if (index.dimension() == 2) outlines.place(slot, pose);
   }
 
+  /// 2D: a static object of `index` shall have a row from the next settle() on.
+  void note_static(Slot slot) { unsettled_.push_back(slot); }
+  /// Gives static objects their rows, when enough are waiting for it or have left. `keeps(slot)`: whether a slot that
+  /// was noted is a static object still.
+  template <class Keeps>
+  void settle(Keeps&& keeps) {
+    ++age_;
+    if (!worth_settling()) return;
+    std::erase_if(unsettled_, [&](Slot slot) { return !index.holds(slot) || !keeps(slot); });
+    build_rows();
+  }
+
   LooseIndex index;
   OutlineStore outlines;  ///< 2D
+  StaticRows2D rows;      ///< 2D: of static objects, who are not in the index then
 
  private:
+  bool worth_settling() const {
+    const std::size_t changed = unsettled_.size() + rows.holes();
+    return changed >= few_statics && 8 * changed >= rows.size() && (rows.empty() || age_ >= frames_between_builds);
+  }
+  void build_rows();
+  Box2D box_of(Slot slot) const;
   std::unique_ptr<Solid> make_solid(const Shape& shape) const;
   std::shared_ptr<const Solid> solid_of(const Shape& shape);
   void set_filling(Slot slot, const Shape& shape);
@@ -140,6 +165,12 @@ class SilhouetteWorld {
     bool centred = true;
     std::shared_ptr<const Solid> solid{};  ///< of boxes one for all of a size: a crowd of cars stays in the cache
   };
+  /// Fewer are not worth rows; nor are rows worth building anew in every frame for statics that are moved in every one.
+  static constexpr std::size_t few_statics = 8;
+  static constexpr std::uint64_t frames_between_builds = 64;
+  std::vector<Slot> unsettled_;                // 2D: static objects that hang in the index
+  std::vector<StaticRows2D::Member> members_;  // for builds
+  std::uint64_t age_ = 0;                      // settle()s since the last build
   std::vector<Body> bodies_;
   std::map<std::array<double, 3>, std::weak_ptr<const Solid>> boxes_;  // by size
   std::optional<BoundKind> bound_;

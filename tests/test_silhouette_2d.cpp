@@ -221,6 +221,11 @@ TEST_CASE("an outline's points are the world's") {
   for (const Vec2& p : expected) CHECK(glm::length(p - store.at(0).centre) <= store.at(0).radius);
 }
 
+Box2D box_around(const Placed2D& object) {
+  const Vec2 r(object.radius);
+  return {object.centre - r, object.centre + r};
+}
+
 TEST_CASE("the walk meets front objects first, skips what is hidden, and finds the same") {
   Random random(24);
   std::uint64_t met = 0, all = 0;
@@ -240,11 +245,19 @@ TEST_CASE("the walk meets front objects first, skips what is hidden, and finds t
     box.add({200, 200, 0});
     LooseIndex index(2, box, 4.0);
     index.reserve(world.size());
+    // In the rounds' turn all, none, or every other one stands still and has a row.
+    std::vector<StaticRows2D::Member> members;
     for (Slot i = 0; i < world.size(); ++i) {
       const LooseBall ball{{store.at(i).centre, 0.0}, store.at(i).radius};
       REQUIRE(index.takes(ball));
-      index.place(i, ball);
+      if (round % 3 == 0 || (round % 3 == 1 && i % 2 == 0)) {
+        members.push_back({i, world[i].occluder, box_around(store.at(i))});
+      } else {
+        index.place(i, ball);
+      }
     }
+    StaticRows2D rows;
+    rows.build(members);
     View view;
     view.viewer = 1;
     view.pose = {{random.uniform(0, 200), random.uniform(0, 200), 0.0}, turn_about_z(random.uniform(-3, 3))};
@@ -256,9 +269,12 @@ TEST_CASE("the walk meets front objects first, skips what is hidden, and finds t
     SilhouetteWalk2D walk;
     WorkCounts work;
     walk.run(
-        index, {}, silhouettes, work, [](Slot) {},
+        index, rows, {}, silhouettes, work, [](Slot) {},
         [&](const BallRows::Item& item) {
           silhouettes.enter(item.slot, store.at(item.slot), world[item.slot].occluder);
+        },
+        [&](Slot slot, bool occluder, const Box2D& around) {
+          silhouettes.enter_boxed(slot, store.at(slot), occluder, around);
         });
     met += work.object_tests;
     all += world.size();
@@ -301,4 +317,45 @@ TEST_CASE("a square that is hidden for sure hides what it holds") {
   }
   CHECK(sure > 0.5 * hidden);
   CHECK(across > 100);
+}
+
+TEST_CASE("eight boxes at once are asked about as each alone, and none that is hidden shows anywhere") {
+  Random random(27);
+  int spanned = 0, hidden = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    CAPTURE(seed);
+    const std::vector<Object> world = random_world_2d(seed, 40);
+    const View view = random_view_2d(seed, world);
+    const OutlineStore store = store_of(world);
+    const ViewVolume volume(view, 2);
+    Silhouettes2D silhouettes;
+    silhouettes.begin(volume);
+    for (Slot i = 0; i < world.size(); ++i) {
+      if (world[i].id != view.rides) silhouettes.enter(i, store.at(i), world[i].occluder);
+    }
+    const Sight2D& sight = silhouettes.sight();
+    for (int round = 0; round < 20; ++round) {
+      BoxLanes boxes;
+      for (std::size_t lane = 0; lane < BoxLanes::count; ++lane) {
+        const Vec2 low = sight.eye() + Vec2(random.uniform(-120, 120), random.uniform(-120, 120));
+        boxes.set(lane, {low, low + Vec2(random.uniform(0, 20), random.below(3) == 0 ? 0.0 : random.uniform(0, 20))});
+      }
+      std::array<Sight2D::BoxSpan, BoxLanes::count> spans;
+      sight.spans_of(boxes, spans);
+      for (std::size_t lane = 0; lane < BoxLanes::count; ++lane) {
+        const Box2D box = boxes.box(lane);
+        const bool alone = silhouettes.hides_box(box);
+        if (spans[lane].quadrant >= 0) CHECK(sight.hides_span(spans[lane]) == alone);
+        spanned += spans[lane].quadrant >= 0 ? 1 : 0;
+        if (!alone) continue;
+        ++hidden;
+        for (int k = 0; k < 20; ++k) {
+          const Vec2 at(random.unit(), random.unit());
+          CHECK_FALSE(silhouettes.shows_disc(box.low + at * (box.high - box.low), 1e-9));
+        }
+      }
+    }
+  }
+  CHECK(spanned > 30'000);
+  CHECK(hidden > 2000);
 }

@@ -119,7 +119,7 @@ TEST_CASE("nodes and volumes are drawn in both dimensions, once, when asked for"
     const double z = solid ? 20.0 : 0.0;
     engine.add({.id = 0,
                 .shape = solid ? Shape{Cuboid{{2, 60, 40}}} : Shape{Rectangle{{2, 60}}},
-                .pose = {{50, 50, z}},
+                .pose = {{40, 50, z}},
                 .is_static = true});
     for (ObjectId id = 1; id <= 40; ++id) {
       engine.add({.id = id,
@@ -127,8 +127,8 @@ TEST_CASE("nodes and volumes are drawn in both dimensions, once, when asked for"
                   .pose = {{70.0 + id % 8, 46.0 + id / 8, z}},
                   .max_speed = 1});
     }
-    engine.add({.id = 41, .shape = solid ? Shape{Sphere{0.5}} : Shape{Disc{0.5}}, .pose = {{20, 50, z}}});
-    const View view{.viewer = 1, .pose = {{30, 50, z}}, .range = 80.0};
+    engine.add({.id = 41, .shape = solid ? Shape{Sphere{0.5}} : Shape{Disc{0.5}}, .pose = {{10, 50, z}}});
+    const View view{.viewer = 1, .pose = {{20, 50, z}}, .range = 80.0};
     Answers answers;
     Recorder drawn;
     for (int frame = 0; frame < 4; ++frame) {
