@@ -22,6 +22,11 @@ constexpr std::size_t ahead = 12;  // objects
 /// Frames that a leash shall last at the object's greatest speed: so seldom an object costs as much as a dozen moves.
 constexpr double leash_frames = 8.0;
 
+bool same(const Pose& a, const Pose& b) {
+  const Quat &p = a.orientation, &q = b.orientation;
+  return a.position == b.position && p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z;
+}
+
 }  // namespace
 
 // A wish: LooseIndex::place() bounds it.
@@ -78,6 +83,8 @@ void GridEngine::State::move(Slot slot, const Pose& pose) {
 
 void GridEngine::State::move_in_full(Slot slot, const Pose& pose, double square) {
   ObjectState& state = world.objects[slot];
+  // Simulators that tell everything in every step tell of what stands still too.
+  if (state.is_static && same(world.objects.pose(slot), pose)) return;
   // A moving object that waits was added since the last frame: it has no place there to have jumped from.
   if (state.moves() && state.place != Place::waiting) {
     note_pushed(slot, square, state.place == Place::hidden ? pushed_hidden : pushed);
@@ -164,10 +171,7 @@ void GridEngine::State::read_active() {
     const Pose old = where.pose;
     const Pose& pose = world.read_alone(slot);
     const Vec3 way = pose.position - old.position;
-    const bool still = old.position == pose.position && old.orientation.w == pose.orientation.w &&
-                       old.orientation.x == pose.orientation.x && old.orientation.y == pose.orientation.y &&
-                       old.orientation.z == pose.orientation.z;
-    if (!still && !stays_on_leash(where, pose, glm::dot(way, way))) mark_stale(slot);
+    if (!same(old, pose) && !stays_on_leash(where, pose, glm::dot(way, way))) mark_stale(slot);
     if (where.stale) cover(slot);
   }
 }

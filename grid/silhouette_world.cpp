@@ -1,5 +1,7 @@
 #include "gridcull/grid/silhouette_world.h"
 
+#include <algorithm>
+
 #include "gridcull/grid/bound_piece.h"
 #include "gridcull/grid/object_table.h"
 
@@ -146,22 +148,25 @@ Box2D SilhouetteWorld::box_of(Slot slot) const {
   return box;
 }
 
+// Nobody leaves the index before the rows are there: whoever runs out of memory here has lost nothing.
 void SilhouetteWorld::build_rows() {
-  members_.clear();
-  rows.for_each([&](Slot slot, bool occluder, const Box2D& box) { members_.push_back({slot, occluder, box}); });
-  for (const Slot slot : unsettled_) {
-    if (!index.holds(slot)) continue;  // noted twice
-    members_.push_back({slot, (index.marks(slot) & is_occluder) != 0, box_of(slot)});
-    index.erase(slot);
-  }
-  rows.build(members_);
+  std::sort(unsettled_.begin(), unsettled_.end());  // some were noted twice
+  unsettled_.erase(std::unique(unsettled_.begin(), unsettled_.end()), unsettled_.end());
+  std::vector<StaticRows2D::Member> members;
+  members.reserve(rows.size() + unsettled_.size());
+  rows.for_each([&](Slot slot, bool occluder, const Box2D& box) { members.push_back({slot, occluder, box}); });
+  for (const Slot slot : unsettled_) members.push_back({slot, (index.marks(slot) & is_occluder) != 0, box_of(slot)});
+  StaticRows2D all;
+  all.build(members);
+  std::swap(rows, all);
+  for (const Slot slot : unsettled_) index.erase(slot);
   unsettled_.clear();
   age_ = 0;
 }
 
 std::uint64_t SilhouetteWorld::shape_bytes() const {
-  std::uint64_t bytes = outlines.bytes() + rows.bytes() + unsettled_.capacity() * sizeof(Slot) +
-                        members_.capacity() * sizeof(StaticRows2D::Member) + bodies_.capacity() * sizeof(Body);
+  std::uint64_t bytes =
+      outlines.bytes() + rows.bytes() + unsettled_.capacity() * sizeof(Slot) + bodies_.capacity() * sizeof(Body);
   for (const Body& body : bodies_) {
     if (!body.solid) continue;
     const std::uint64_t all = sizeof(Solid) + body.solid->pieces.bytes() + body.solid->outer.bytes();

@@ -169,4 +169,25 @@ TEST_CASE("statics that come, go and are moved by hand are answered where they a
   CHECK(answers.views[0].visible.size() > 5);
 }
 
+TEST_CASE("statics that are told where they stand anyway keep their rows") {
+  GridEngine engine({.dimension = 2, .bounds = {{0, 0, 0}, {100, 100, 0}}, .cell = 1.0});
+  std::vector<Object> walls;
+  for (ObjectId id = 1; id <= 64; ++id) {
+    walls.push_back(make_static(id, Rectangle{{2, 2}}, {12.0 * (id % 8) + 2, 12.0 * static_cast<double>(id / 8), 0}));
+    engine.add(walls.back());
+  }
+  const std::vector<View> views{make_view(1, {50, 50, 0})};
+  Answers answers;
+  engine.query(0.0, views, answers);
+  const WorkCounts first = answers.views[0].work;
+  for (const Object& wall : walls) engine.move(wall.id, wall.pose);
+  engine.query(1.0, views, answers);
+  CHECK(answers.views[0].work.cells_visited == first.cells_visited);
+  CHECK(answers.views[0].work.object_tests == first.object_tests);
+  // One that does move is found where it is.
+  engine.move(28, {{56, 50, 0}});
+  engine.query(2.0, views, answers);
+  CHECK(std::count(answers.views[0].visible.begin(), answers.views[0].visible.end(), 28) == 1);
+}
+
 }  // namespace gridcull::test
