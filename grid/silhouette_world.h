@@ -151,7 +151,7 @@ class SilhouetteWorld {
  private:
   bool worth_settling() const {
     const std::size_t changed = unsettled_.size() + rows.holes();
-    return changed >= few_statics && 8 * changed >= rows.size() && (rows.empty() || age_ >= frames_between_builds);
+    return changed >= few_statics && 8 * changed >= rows.size() && age_ >= frames_between_builds;
   }
   void build_rows();
   Box2D box_of(Slot slot) const;
@@ -168,8 +168,8 @@ class SilhouetteWorld {
   /// Fewer are not worth rows; nor are rows worth building anew in every frame for statics that are moved in every one.
   static constexpr std::size_t few_statics = 8;
   static constexpr std::uint64_t frames_between_builds = 64;
-  std::vector<Slot> unsettled_;  // 2D: static objects that hang in the index
-  std::uint64_t age_ = 0;        // settle()s since the last build
+  std::vector<Slot> unsettled_;                // 2D: static objects that hang in the index
+  std::uint64_t age_ = frames_between_builds;  // settle()s since the last build; the first one waits for nothing
   std::vector<Body> bodies_;
   std::map<std::array<double, 3>, std::weak_ptr<const Solid>> boxes_;  // by size
   std::optional<BoundKind> bound_;
