@@ -24,8 +24,18 @@ void OutlineStore::add(Slot slot, const Shape& shape) {
     body.placed.radius = disc->radius;
   } else {
     body.kept = kept_for(shape);
-    body.points = std::make_unique<Vec2[]>(body.kept->outline.points().size());
+    const std::size_t count = body.kept->outline.points().size();
+    if (count > FewPoints{}.points.size()) {
+      body.many = std::make_unique<Vec2[]>(count);
+    } else {
+      make_block(slot / in_block);
+    }
   }
+}
+
+void OutlineStore::make_block(std::size_t block) {
+  if (block >= few_.size()) few_.resize(block + 1);
+  if (!few_[block]) few_[block] = std::make_unique<FewPoints[]>(in_block);
 }
 
 void OutlineStore::remove(Slot slot) {
@@ -40,8 +50,9 @@ void OutlineStore::place(Slot slot, const Pose& pose) {
     body.placed.centre = Vec2(pose.position);
     return;
   }
-  body.kept->outline.place(pose, body.points.get());
-  body.placed = placed(body.kept->outline, pose, body.points.get());
+  Vec2* const points = points_of(slot);
+  body.kept->outline.place(pose, points);
+  body.placed = placed(body.kept->outline, pose, points);
 }
 
 Placed2D OutlineStore::place(Slot slot, const Pose& pose, std::vector<Vec2>& points) const {
@@ -54,11 +65,12 @@ Placed2D OutlineStore::place(Slot slot, const Pose& pose, std::vector<Vec2>& poi
 
 std::uint64_t OutlineStore::bytes() const {
   std::uint64_t bytes = bodies_.capacity() * sizeof(Body);
+  for (const auto& block : few_) bytes += block ? in_block * sizeof(FewPoints) : 0;
   for (const Body& body : bodies_) {
     if (!body.kept) continue;
     const std::uint64_t shared = sizeof(Kept) + body.kept->outline.bytes();
-    bytes +=
-        body.kept->outline.points().size() * sizeof(Vec2) + shared / static_cast<std::uint64_t>(body.kept.use_count());
+    bytes += shared / static_cast<std::uint64_t>(body.kept.use_count());
+    if (body.many) bytes += body.kept->outline.points().size() * sizeof(Vec2);
   }
   return bytes;
 }

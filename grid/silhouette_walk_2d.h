@@ -1,5 +1,6 @@
-// The walk of method `silhouette` in 2D over the loose index: what hangs in it by its least distance from the viewer,
-// nodes that are wholly behind the slope buffer skipped with all below (DESIGN sections 5.2, 5.6).
+// The walk of method `silhouette` in 2D over the loose index and the rows of what stands still: all in it by its least
+// distance from the viewer, nodes and rows that are wholly behind the slope buffer skipped with all below (DESIGN
+// sections 5.2, 5.6).
 //
 // Claim: every ball that `meet` is not called for is hidden or beyond the range. It hangs in a node, and it (that is,
 // the square around it) or the box of that node or of one above was found beyond the range, or behind the buffer as it
@@ -10,6 +11,8 @@
 // worlds that do not fit into the cache, waiting for memory costs more than all that, so it is asked for ahead.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
