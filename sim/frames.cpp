@@ -152,12 +152,13 @@ bool FrameReader::next(Frame& out) {
 }
 
 struct FrameWriter::Detail {
+  Detail(const std::string& path, int dimension_) : writer(path), dimension(dimension_) {}
+
   TextWriter writer;
   int dimension;
 };
 
-FrameWriter::FrameWriter(const std::string& path, int dimension)
-    : detail_(std::make_unique<Detail>(TextWriter(path), dimension)) {
+FrameWriter::FrameWriter(const std::string& path, int dimension) : detail_(std::make_unique<Detail>(path, dimension)) {
   detail_->writer.write("{\"format\": \"" + std::string(format) + "\"}\n");
 }
 FrameWriter::~FrameWriter() = default;
