@@ -61,22 +61,34 @@ TEST_CASE("nothing that a client sends harms another") {
     CHECK(bad.wait_for_close() == 1007);
     good_lives();
   }
-  SUBCASE("every truncation of a valid message") {
+  SUBCASE("every truncation of a valid message of each type") {
     Json open = open_message();
     open["scene"]["objects"].erase(open["scene"]["objects"].begin() + 3, open["scene"]["objects"].end());
     open["scene"]["viewers"] = Json::array();
-    const std::string text = open.dump();
-    const std::vector<std::uint8_t> cbor = Json::to_cbor(open);
+    Json frame = frame_message(1), bulk = frame;
+    frame["set"] = {{{"id", 0}, {"position", {1.5, 2}}}};
+    frame["remove"] = {1};
+    bulk["set_ids"] = Json::binary({0, 0, 0, 0, 2, 0, 0, 0});
+    bulk["set_positions64"] = Json::binary(std::vector<std::uint8_t>(32));
+    const Json key = {{"session", "a"}, {"token", "b"}};
     RawSocket bad(server.port());
-    for (std::size_t n = 0; n < text.size(); ++n) {
-      bad.send_bytes(std::string_view(text).substr(0, n));
-      REQUIRE(bad.receive().at("code") == "bad_message");
-    }
-    for (std::size_t n = 0; n < cbor.size(); ++n) {
-      bad.send_bytes(std::string_view(reinterpret_cast<const char*>(cbor.data()), n), false);
-      REQUIRE(bad.receive().at("code") == "bad_message");
+    const auto cut = [&](std::string_view bytes, bool text) {
+      for (std::size_t n = 0; n < bytes.size(); ++n) {
+        bad.send_bytes(bytes.substr(0, n), text);
+        REQUIRE(bad.receive().at("code") == "bad_message");
+      }
+    };
+    for (Json message : {open, frame, bulk, Json{{"type", "resume"}}, Json{{"type", "watch"}}, Json{{"type", "close"}},
+                         Json{{"type", "explain"}, {"viewer", 1}, {"object", 9}}}) {
+      if (message.size() == 1 && message["type"] != "close") message.update(key);
+      const std::vector<std::uint8_t> cbor = Json::to_cbor(message);
+      cut({reinterpret_cast<const char*>(cbor.data()), cbor.size()}, false);
+      if (message != bulk) cut(message.dump(), true);
     }
     CHECK(bad.ask(open).at("type") == "opened");
+    const std::vector<std::uint8_t> whole = Json::to_cbor(bulk);
+    bad.send_bytes({reinterpret_cast<const char*>(whole.data()), whole.size()}, false);
+    CHECK(bad.receive().at("type") == "pvs");
     good_lives();
   }
   SUBCASE("a message over the limit") {
@@ -139,6 +151,62 @@ TEST_CASE("nothing that a client sends harms another") {
     good_lives();
   }
   CHECK(http_get(server.port(), "/healthz").status == 200);
+}
+
+TEST_CASE("unfinished messages have room for eight of the greatest, from all together") {
+  ServerOptions options;
+  options.max_message = 2'000'000;
+  RunningServer server(options);
+  RawSocket good(server.port());
+  good.ask(open_message());
+  // A binary message's first part of 1,950,000 bytes, masked, with more to come.
+  const std::string part = std::string{'\x02', '\xff', 0, 0, 0, 0, 0, '\x1d', '\xc1', '\x30', 'a', 'b', 'c', 'd'} +
+                           std::string(1'950'000, 'x');
+  const std::string end{'\x80', '\x80', 'a', 'b', 'c', 'd'}, ping{'\x89', '\x80', 'a', 'b', 'c', 'd'};
+  std::vector<std::unique_ptr<RawSocket>> all;
+  for (int i = 0; i < 8; ++i) {
+    all.push_back(std::make_unique<RawSocket>(server.port()));
+    boost::asio::write(all.back()->socket(), boost::asio::buffer(part));
+    // Whoever gets its pong has been read up to there.
+    boost::asio::write(all.back()->socket(), boost::asio::buffer(ping));
+    std::string pong(2, ' ');
+    boost::asio::read(all.back()->socket(), boost::asio::buffer(pong));
+    REQUIRE(pong == std::string("\x8a\0", 2));
+  }
+  RawSocket ninth(server.port());
+  boost::asio::write(ninth.socket(), boost::asio::buffer(part + end));
+  const Json answer = ninth.receive();
+  CHECK(answer.at("code") == "limit");
+  CHECK(answer.at("message") == "too many large messages at a time");
+  CHECK(ninth.wait_for_close() == 1009);
+  CHECK(becomes(server.port(), "gridcull_connections 9"));
+  CHECK(good.ask(frame_message(1)).at("type") == "pvs");
+  // Their room is there again once they are gone.
+  all.clear();
+  CHECK(becomes(server.port(), "gridcull_connections 1"));
+  RawSocket later(server.port());
+  later.send_bytes(std::string(2'000'000, 'x'), false);
+  CHECK(later.receive().at("code") == "bad_message");
+}
+
+TEST_CASE("whose other end answers no ping is let go; who answers may be silent") {
+  ServerOptions options;
+  options.idle = std::chrono::seconds(3);
+  RunningServer server(options);
+  RawSocket good(server.port()), gone(server.port());
+  good.ask(open_message());
+  const Json opened = gone.ask(open_message());
+  unsigned code = 0;
+  std::thread reader([&] { code = good.wait_for_close(); });  // who reads answers pings
+  const std::string one_left = "gridcull_connections 1";
+  CHECK((becomes(server.port(), one_left) || becomes(server.port(), one_left)));
+  RawSocket again(server.port());
+  const Json resumed =
+      again.ask({{"type", "resume"}, {"session", opened.at("session")}, {"token", opened.at("token")}});
+  CHECK(resumed.at("seq") == 0);
+  server.stop();
+  reader.join();
+  CHECK(code == 1001);  // it was there to the end
 }
 
 TEST_CASE("a flood of connections is cut off; those that are there go on") {
