@@ -14,12 +14,14 @@ constexpr std::string_view format = "gridcull.pvs/1";
 }  // namespace
 
 struct PvsWriter::Detail {
+  explicit Detail(const std::string& path) : writer(path) {}
+
   TextWriter writer;
   std::string text{};
 };
 
 PvsWriter::PvsWriter(const std::string& path, const std::string& method, const std::string& scene)
-    : detail_(std::make_unique<Detail>(TextWriter(path))) {
+    : detail_(std::make_unique<Detail>(path)) {
   std::string text = "{\"format\": \"" + std::string(format) + "\"";
   append_key(text, "method");
   append_string(text, method);

@@ -20,7 +20,7 @@ for target in "${targets[@]}"; do
   mkdir -p "$work/corpus/$target" "$work/found/$target"
   log=$work/$target.log
   "$work/gridcull_fuzz_$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=4096 -max_len=4096 \
-    -print_final_stats=1 -artifact_prefix="$work/found/$target/" "$work/corpus/$target" "$source/tests/fuzz/corpus/$target" \
+    -dict="$source/tests/fuzz/words.dict" -print_final_stats=1 -artifact_prefix="$work/found/$target/" "$work/corpus/$target" "$source/tests/fuzz/corpus/$target" \
     >"$log" 2>&1 || { echo "$target: found something, see $log and $work/found/$target" >&2; status=1; }
   # The readers are led by what is reached in them, not in the targets alone.
   counters=$(sed -n 's/^INFO: Loaded .* (\([0-9]*\) inline 8-bit counters).*/\1/p' "$log" | head -1)
