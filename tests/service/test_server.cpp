@@ -2,15 +2,19 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "gridcull/core/error.h"
 #include "gridcull/core/hash.h"
 #include "gridcull/methods/catalog.h"
 #include "gridcull/service/client/gridcull_client.h"
+#include "gridcull/service/wire_reply.h"
 #include "gridcull/sim/generate.h"
 #include "gridcull/sim/replay.h"
 #include "gridcull/sim/stats.h"
@@ -64,6 +68,17 @@ TEST_CASE("the client is told what a replay says, in 2D and 3D, in full and in d
   check_client("town", Client::Reply::delta);
   check_client("town", Client::Reply::full);
   check_client("city", Client::Reply::delta);
+}
+
+TEST_CASE("docs/service.md names every code that a client may be told") {
+  std::ifstream file(GRIDCULL_SOURCE_DIR "/docs/service.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  for (int code = 0; code <= static_cast<int>(ErrorCode::internal); ++code) {
+    const std::string name = wire_error(Error(static_cast<ErrorCode>(code), "no matter")).code;
+    CAPTURE(name);
+    const std::string row = "\n| `" + name + "`", second = ", `" + name + "` |";
+    CHECK((text.find(row) != std::string::npos || text.find(second) != std::string::npos));
+  }
 }
 
 TEST_CASE("plain HTTP: health, metrics, sessions, the page, and nothing else") {
