@@ -31,4 +31,10 @@ class DrawSink {
   virtual void region(std::span<const Vec2> /*outline*/) {}
 };
 
+/// Whose view is drawn where.
+struct Drawing {
+  ViewerId viewer;
+  DrawSink* sink;
+};
+
 }  // namespace gridcull

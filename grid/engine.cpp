@@ -115,9 +115,13 @@ void GridEngine::query(double time, std::span<const View> views, Answers& out) {
   out.stats = s.stats;
 }
 
+void GridEngine::draw_next(std::span<const Drawing> drawings) {
+  state_->drawings.assign(drawings.begin(), drawings.end());
+}
+
 void GridEngine::draw_next(ViewerId viewer, DrawSink* sink) {
-  state_->draw_viewer = viewer;
-  state_->draw_sink = sink;
+  state_->drawings.clear();
+  if (sink != nullptr) state_->drawings.push_back({viewer, sink});
 }
 
 const Lattice& GridEngine::lattice() const { return state_->world.lattice; }

@@ -85,7 +85,10 @@ class GridEngine final : public Culler {
   void announce_jump(ObjectId object) override;
   void query(double time, std::span<const View> views, Answers& out) override;
 
-  /// Draws the traversal of `viewer` in the next query() (once) into `sink`; nullptr cancels.
+  /// Draws the traversals of these viewers in the next query() (once), each into its own sink, instead of what was to
+  /// be drawn before.
+  void draw_next(std::span<const Drawing> drawings);
+  /// The same for one viewer; nullptr cancels.
   void draw_next(ViewerId viewer, DrawSink* sink);
 
   const Lattice& lattice() const;

@@ -97,8 +97,7 @@ void GridEngine::State::answer_views(std::span<const View> views, Answers& out) 
   const std::span<const std::uint32_t> order = view_order.sort(views, world.lattice.box());
   const auto one = [&](std::size_t place, ViewAnswerer& task) {
     const std::size_t i = order[place];
-    DrawSink* sink = draw_sink != nullptr && views[i].viewer == draw_viewer ? draw_sink : nullptr;
-    task.run(world, views[i], out.views[i], results[i], sink);
+    task.run(world, views[i], out.views[i], results[i], sink_of(views[i].viewer));
   };
   if (options.threads == 1 || views.size() < 2) {
     for (std::size_t i = 0; i < views.size(); ++i) one(i, *tasks[0]);
@@ -118,7 +117,7 @@ void GridEngine::State::answer_views(std::span<const View> views, Answers& out) 
     arena->execute([&] { tbb::parallel_for(std::size_t{0}, views.size(), body); });
     for (const auto& task : tasks) take_over(task.get());
   }
-  draw_sink = nullptr;
+  drawings.clear();
 }
 
 void GridEngine::State::merge(std::size_t views) {

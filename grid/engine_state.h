@@ -123,8 +123,14 @@ struct GridEngine::State {
   CoverScratch scratch;
   Cover cover_buffer;
 
-  ViewerId draw_viewer = no_id;
-  DrawSink* draw_sink = nullptr;
+  std::vector<Drawing> drawings;  // of the next query
+
+  DrawSink* sink_of(ViewerId viewer) const {
+    for (const Drawing& drawing : drawings) {
+      if (drawing.viewer == viewer) return drawing.sink;
+    }
+    return nullptr;
+  }
 };
 
 }  // namespace gridcull

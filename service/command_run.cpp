@@ -103,9 +103,9 @@ void add_run_command(CLI::App& app, Action& action) {
       ->type_name("FRAME:VIEWER:FILE.svg")
       ->allow_extra_args(false);
   command.footer(
-      "Example: a town, replayed, with a picture of what viewer 1 sees in frame 50\n"
+      "Example: a town, replayed, with a picture of what viewer 400 sees in frame 50\n"
       "  gridcull make town --out town --viewers 10 --range 100\n"
-      "  gridcull run town/scene.json --frames town/frames.jsonl --out pvs.jsonl --picture 50:1:view.svg");
+      "  gridcull run town/scene.json --frames town/frames.jsonl --out pvs.jsonl --picture 50:400:view.svg");
   command.callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

@@ -19,6 +19,11 @@ extern "C" void remember_signal(int signal) {
   timer_settime(nudges, 0, &often, nullptr);
 }
 
+// The write that failed comes back by itself; further ones may come before the program has cleaned up.
+extern "C" void remember_pipe(int signal) {
+  if (received == 0) received = signal;
+}
+
 extern "C" void nudge(int) {}
 
 void prepare_nudges() {
@@ -37,14 +42,20 @@ void catch_interrupts() {
   action.sa_handler = remember_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // no SA_RESTART: a blocked read comes back
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM}) {
+  const auto take = [](int signal, const struct sigaction& by) {
     struct sigaction before {};
     // What was started with the signal ignored (nohup, a background job) goes on ignoring it.
-    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
-  }
+    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(signal, &by, nullptr);
+  };
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) take(signal, action);
+  action.sa_handler = remember_pipe;
+  action.sa_flags = 0;
+  take(SIGPIPE, action);
 }
 
 bool interrupted() { return received != 0; }
+
+bool broken_pipe() { return received == SIGPIPE; }
 
 int interrupt_status() { return 128 + static_cast<int>(received); }
 

@@ -10,10 +10,14 @@ struct Stopped {
   std::string note = "unfinished outputs were not written";  ///< what became of the work
 };
 
-/// From now on SIGINT and SIGTERM set a flag. A second one ends the program at once.
+/// From now on SIGINT, SIGTERM and SIGHUP (the terminal is gone) set a flag. A second one ends the program at once.
+/// A pipe that nobody reads any more (SIGPIPE) sets it too: what is written to it fails.
 void catch_interrupts();
 
 bool interrupted();
+
+/// Whether it was a pipe that nobody reads any more.
+bool broken_pipe();
 
 /// 128 + the signal, as shells expect.
 int interrupt_status();

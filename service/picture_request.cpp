@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "gridcull/core/error.h"
@@ -20,6 +22,17 @@ std::optional<Number> parse_number(std::string_view text) {
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// The viewers that there are, the first few by id.
+std::string those_of(std::span<const View> views) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(views.size(), most); ++i) {
+    text += (i > 0 ? ", " : "") + std::to_string(views[i].viewer);
+  }
+  if (views.size() > most) text += ", ...";
+  return views.empty() ? "none" : text;
 }
 
 std::string title_of(const Culler& culler, const PictureRequest& request) {
@@ -56,12 +69,6 @@ PictureRequest parse_picture_request(const std::string& text) {
 Pictures::Pictures(const std::vector<std::string>& requests, std::string label) : label_(std::move(label)) {
   for (const std::string& text : requests) {
     PictureRequest request = parse_picture_request(text);
-    for (const Item& other : items_) {
-      if (other.request.frame == request.frame) {
-        throw Error(ErrorCode::usage, "--picture: one picture a frame can be drawn, and frame " +
-                                          std::to_string(request.frame) + " is asked for twice");
-      }
-    }
     TextWriter writer(request.file);
     items_.push_back({std::move(request), std::move(writer)});
   }
@@ -69,13 +76,22 @@ Pictures::Pictures(const std::vector<std::string>& requests, std::string label) 
 
 bool Pictures::step(Replay& replay, Culler& culler, const Lattice& lattice) {
   const std::uint64_t frame = replay.next_frame();
-  const auto item = std::find_if(items_.begin(), items_.end(), [&](const Item& i) { return i.request.frame == frame; });
-  auto* engine = item == items_.end() ? nullptr : dynamic_cast<GridEngine*>(&culler);
-  PictureSink sink(lattice);
-  if (engine) engine->draw_next(item->request.viewer, &sink);
+  std::map<ViewerId, PictureSink> sinks;
+  for (const Item& item : items_) {
+    if (item.request.frame == frame) sinks.try_emplace(item.request.viewer, lattice);
+  }
+  auto* engine = sinks.empty() ? nullptr : dynamic_cast<GridEngine*>(&culler);
+  if (engine) {
+    std::vector<Drawing> drawings;
+    for (auto& [viewer, sink] : sinks) drawings.push_back({viewer, &sink});
+    engine->draw_next(drawings);
+  }
   if (!replay.step()) return false;
   frames_ = frame + 1;
-  if (item != items_.end()) draw(*item, replay, culler, lattice, engine ? &sink : nullptr);
+  for (Item& item : items_) {
+    if (item.request.frame != frame) continue;
+    draw(item, replay, culler, lattice, engine ? &sinks.at(item.request.viewer) : nullptr);
+  }
   return true;
 }
 
@@ -86,7 +102,10 @@ void Pictures::draw(Item& item, const Replay& replay, const Culler& culler, cons
       std::find_if(answers.begin(), answers.end(), [&](const Answer& a) { return a.viewer == item.request.viewer; });
   const auto view = std::find_if(replay.views().begin(), replay.views().end(),
                                  [&](const View& v) { return v.viewer == item.request.viewer; });
-  if (answer == answers.end() || view == replay.views().end()) return;
+  if (answer == answers.end() || view == replay.views().end()) {
+    item.others = those_of(replay.views());
+    return;
+  }
   Picture picture{.lattice = lattice,
                   .objects = replay.world().objects(),
                   .view = *view,
@@ -106,7 +125,8 @@ void Pictures::check() const {
       throw Error(ErrorCode::usage, what + (frames_ == 1 ? ": there is only " : ": there are only ") +
                                         counted(frames_, "frame") + ", counted from 0");
     }
-    throw Error(ErrorCode::usage, what + ": viewer " + std::to_string(request.viewer) + " is not there in that frame");
+    throw Error(ErrorCode::usage, what + ": viewer " + std::to_string(request.viewer) +
+                                      " is not there in that frame, but " + item.others);
   }
 }
 

@@ -42,6 +42,7 @@ class Pictures {
     PictureRequest request;
     TextWriter writer;
     bool drawn = false;
+    std::string others{};  ///< viewers that are there instead
   };
   void draw(Item& item, const Replay& replay, const Culler& culler, const Lattice& lattice, const PictureSink* sink);
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
 
@@ -32,8 +33,39 @@ int refuse(std::string message) {
 }
 
 int stopped(const Stopped& stop = {}) {
-  std::fprintf(stderr, "gridcull: stopped; %s\n", stop.note.c_str());
+  // Whoever reads our output and has enough (`| head`) knows that it stops.
+  if (!broken_pipe()) std::fprintf(stderr, "gridcull: stopped; %s\n", stop.note.c_str());
   return interrupt_status();
+}
+
+bool all_written() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
+
+int unwritten() {
+  if (broken_pipe()) return interrupt_status();
+  return refuse(std::string("standard output: cannot be written: ") + std::strerror(errno));
+}
+
+/// What is wrong with a command line, and where to look.
+int refuse_usage(const CLI::App& app, const CLI::ParseError& fault) {
+  std::string command = "gridcull";
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    command += " " + at->get_name();
+  }
+  std::string line = fault.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&fault) != nullptr) {
+    line.clear();
+    for (const std::string& extra : app.remaining(true)) line += (line.empty() ? "" : " ") + extra;
+    line += ": not expected";
+  }
+  return refuse(line + " (see " + command + " --help)");
+}
+
+/// Help or the version.
+int show(const CLI::App& app, const CLI::ParseError& wish) {
+  const int status = app.exit(wish);
+  std::cout.flush();
+  return all_written() ? status : unwritten();
 }
 
 int perform(const Action& action) {
@@ -43,10 +75,7 @@ int perform(const Action& action) {
     // More threads than cores are allowed; unless told so, TBB writes a warning of its own.
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, most_threads);
     const int status = action();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      return refuse(std::string("standard output: cannot be written: ") + std::strerror(errno));
-    }
-    return status;
+    return all_written() ? status : unwritten();
   } catch (const Stopped& stop) {
     return stopped(stop);
   } catch (const std::bad_alloc&) {
@@ -81,7 +110,7 @@ int run_program(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return e.get_exit_code() == 0 ? app.exit(e) : refuse(e.what());
+    return e.get_exit_code() == 0 ? show(app, e) : refuse_usage(app, e);
   } catch (const std::exception& e) {
     return refuse(e.what());
   }

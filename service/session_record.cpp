@@ -16,8 +16,20 @@ namespace gridcull {
 SessionRecord::SessionRecord(const std::string& folder, const Scene& scene, const std::string& about)
     : path_(folder + "/frames.jsonl"), dimension_(scene.dimension) {
   std::error_code fault;
-  std::filesystem::create_directories(folder, fault);
+  const bool made = std::filesystem::create_directories(folder, fault);
   if (fault) throw Error(ErrorCode::io, folder + ": the folder cannot be made: " + fault.message());
+  try {
+    begin(folder, scene, about);
+  } catch (...) {
+    close();
+    if (made) std::filesystem::remove_all(folder, fault);  // the session is not opened: nothing of it is left
+    throw;
+  }
+}
+
+SessionRecord::~SessionRecord() { close(); }
+
+void SessionRecord::begin(const std::string& folder, const Scene& scene, const std::string& about) {
   write_scene(folder + "/scene.json", scene);
   write_text(folder + "/session.json", about);
   file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
@@ -25,8 +37,9 @@ SessionRecord::SessionRecord(const std::string& folder, const Scene& scene, cons
   write_line("{\"format\": \"gridcull.frames/1\"}");
 }
 
-SessionRecord::~SessionRecord() {
+void SessionRecord::close() {
   if (file_ >= 0) ::close(file_);
+  file_ = -1;
 }
 
 void SessionRecord::add(const Frame& frame) { write_line(frame_text(frame, dimension_)); }

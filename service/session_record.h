@@ -23,6 +23,8 @@ class SessionRecord {
   void add(const Frame& frame);
 
  private:
+  void begin(const std::string& folder, const Scene& scene, const std::string& about);
+  void close();
   void write_line(std::string line);
 
   std::string path_;

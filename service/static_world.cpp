@@ -28,7 +28,12 @@ std::optional<StaticVolume> open_static_volume(const Scene& scene, const std::st
   if (scene.static_volume.empty()) return std::nullopt;
   const std::filesystem::path folder = scene_path == "-" ? "" : std::filesystem::path(scene_path).parent_path();
   StaticVolume volume{(folder / scene.static_volume).string(), {}};
-  volume.head = read_static_volume_head(volume.path);
+  try {
+    volume.head = read_static_volume_head(volume.path);
+  } catch (const Error& fault) {
+    const std::string name = scene_path == "-" ? "standard input" : scene_path;
+    throw Error(fault.code(), name + ": /static_volume/file: " + fault.what());
+  }
   const StaticCells& head = volume.head;
   if (head.dimension != scene.dimension) {
     refuse(volume, "expected cells of a " + std::to_string(scene.dimension) + "D scene, found " +

@@ -1,5 +1,6 @@
 #include "gridcull/service/wire_reply.h"
 
+#include <algorithm>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -75,6 +76,17 @@ std::string code_name(ErrorCode code) {
   return "internal";
 }
 
+/// An option of `open` is named as on the command line: "--view-box: line" is about /options/view_box.
+std::string pointer_of(std::string_view option) {
+  if (option == "--method") return "/method";
+  for (const char* name : {"cell", "tbv", "threads", "resolution", "bounds", "occluders", "view_box"}) {
+    std::string typed = std::string("--") + name;
+    std::replace(typed.begin(), typed.end(), '_', '-');
+    if (option == typed) return std::string("/options/") + name;
+  }
+  return {};
+}
+
 /// "message: /pointer: line" as its parts; any of the first two may be missing.
 void split(std::string_view text, WireError& out) {
   constexpr std::string_view source = "message: ";
@@ -83,6 +95,9 @@ void split(std::string_view text, WireError& out) {
   if (text.starts_with('/') && end != std::string_view::npos) {
     out.pointer = text.substr(0, end);
     text.remove_prefix(end + 2);
+  } else if (text.starts_with("--") && end != std::string_view::npos) {
+    out.pointer = pointer_of(text.substr(0, end));
+    if (!out.pointer.empty()) text.remove_prefix(end + 2);
   }
   // Pointers into a scene are the scene's own.
   constexpr std::string_view scene = "/scene";

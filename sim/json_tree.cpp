@@ -59,6 +59,12 @@ class JsonTree::Builder final : public nlohmann::json_sax<nlohmann::json> {
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& fault) override {
     std::string line = fault.what();
     if (line.starts_with('[')) line.erase(0, line.find("] ") + 2);
+    // Of a line of a file its number is in `source_`; that of the line within the line would mislead.
+    constexpr std::string_view first = "at line 1, column";
+    const bool one_line = tree_.text_.find('\n') == std::string_view::npos;
+    if (const std::size_t at = line.find(first); one_line && at != std::string::npos) {
+      line.replace(at, first.size(), "at column");
+    }
     constexpr int overflow = 406;  // "number overflow parsing '1e999'"
     if (fault.id == overflow) {
       const std::string digits = line.substr(std::min(line.find('\''), line.size()));
@@ -162,6 +168,10 @@ JsonTree::JsonTree(std::string_view text, std::string source, ErrorCode code, En
   }
   Builder builder(*this);
   if (encoding == Encoding::json) {
+    if (text.starts_with("\x1f\x8b")) {
+      throw Error(ErrorCode::bad_message,
+                  source_ + ": expected JSON, found gzip data; only files named .gz are unpacked");
+    }
     // The reader takes it for the end.
     if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
       throw Error(ErrorCode::bad_message, source_ + ": expected JSON: found a zero byte at " + std::to_string(zero));
@@ -256,11 +266,12 @@ std::uint64_t JsonRef::count() const {
   return static_cast<std::uint64_t>(within(0.0, 9007199254740992.0, "an integer from 0 to 2^53"));
 }
 
-std::uint32_t JsonRef::id() const {
-  constexpr const char* expected = "an id, an integer from 0 to 4294967294";
+std::uint32_t JsonRef::whole(std::uint32_t most, const char* expected) const {
   if (node().kind != JsonTree::Kind::integer) refuse(expected);
-  return static_cast<std::uint32_t>(within(0.0, 4294967294.0, expected));
+  return static_cast<std::uint32_t>(within(0.0, most, expected));
 }
+
+std::uint32_t JsonRef::id() const { return whole(4294967294u, "an id, an integer from 0 to 4294967294"); }
 
 bool JsonRef::boolean() const {
   if (node().kind != JsonTree::Kind::boolean) refuse("true or false");
@@ -302,6 +313,9 @@ std::string JsonRef::found() const {
       if (!std::isfinite(node().number)) return node().number != node().number ? "NaN" : "infinity";
       std::string text;
       append_number(text, node().number);
+      // 5.0 is no integer: "found 5" where one was expected would be a riddle.
+      const bool plain = text.find_first_not_of("-0123456789") == std::string::npos;
+      if (plain && node().kind == JsonTree::Kind::number) text += ".0";
       return text;
     }
     case JsonTree::Kind::string: {

@@ -77,12 +77,13 @@ class JsonRef {
   bool is_null() const { return node().kind == JsonTree::Kind::null; }
   /// Where it stands in the tree (RFC 6901).
   std::string pointer() const { return tree_->pointer(node_); }
-  double number() const;                                               ///< magnitude at most 1e9
-  double positive() const;                                             ///< above 0, at most 1e9
-  double not_negative() const;                                         ///< 0 .. 1e9
-  double within(double low, double high, const char* expected) const;  ///< low <= value <= high
-  std::uint64_t count() const;                                         ///< an integer 0 .. 2^53
-  std::uint32_t id() const;                                            ///< an integer 0 .. 2^32 - 2
+  double number() const;                                                ///< magnitude at most 1e9
+  double positive() const;                                              ///< above 0, at most 1e9
+  double not_negative() const;                                          ///< 0 .. 1e9
+  double within(double low, double high, const char* expected) const;   ///< low <= value <= high
+  std::uint64_t count() const;                                          ///< an integer 0 .. 2^53
+  std::uint32_t id() const;                                             ///< an integer 0 .. 2^32 - 2
+  std::uint32_t whole(std::uint32_t most, const char* expected) const;  ///< an integer 0 .. most
   bool boolean() const;
   std::string_view string() const;
   /// A byte string, in the text that was parsed; only CBOR has them.

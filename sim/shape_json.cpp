@@ -1,5 +1,7 @@
 #include "gridcull/sim/shape_json.h"
 
+#include <array>
+
 #include "gridcull/sim/json_text.h"
 
 namespace gridcull {
@@ -26,18 +28,24 @@ Vec3 read_size(const JsonRef& json, int dimension) {
 
 Faces read_faces(const JsonRef& json) {
   Faces out{read_points_3d(json.at("vertices")), {}};
+  const std::string expected = "the number of one of the " + std::to_string(out.vertices.size()) + " vertices";
   for (const JsonRef& triangle : json.at("triangles").items()) {
     const std::vector<JsonRef> corners = triangle.items();
     if (corners.size() != 3) triangle.refuse("3 vertex numbers");
-    for (const JsonRef& corner : corners) {
-      if (corner.id() >= out.vertices.size()) {
-        corner.refuse("the number of one of the " + std::to_string(out.vertices.size()) + " vertices");
-      }
+    std::array<std::uint32_t, 3> numbers{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      numbers[i] = corners[i].whole(no_id, expected.c_str());
+      if (numbers[i] >= out.vertices.size()) corners[i].refuse(expected);
     }
-    out.triangles.push_back({corners[0].id(), corners[1].id(), corners[2].id()});
+    out.triangles.push_back(numbers);
   }
   if (const auto closed = json.find("closed")) out.closed = closed->boolean();
   return out;
+}
+
+std::string read_file_name(const JsonRef& json) {
+  if (json.string().empty()) json.refuse("a file name");
+  return std::string(json.string());
 }
 
 /// A path that leads out of the scene's folder is as good as any: the file is only read.
@@ -46,7 +54,7 @@ Shape read_mesh_shape(const JsonRef& json, MeshShelf* meshes, std::optional<Mesh
   if (meshes == nullptr) {
     json.at("type").refuse_with("\"mesh\" shapes stand in scene files only; give the triangles as \"faces\"");
   }
-  MeshSource from{std::string(json.at("file").string()), {}};
+  MeshSource from{read_file_name(json.at("file")), {}};
   if (const auto group = json.find("group")) from.group = group->string();
   try {
     MeshGroup mesh = meshes->take(from.file, from.group);
@@ -60,7 +68,7 @@ Shape read_mesh_shape(const JsonRef& json, MeshShelf* meshes, std::optional<Mesh
 Shape read_volume_shape(const JsonRef& json, MeshShelf* shelf, std::optional<VolumeSource>* source) {
   json.only_keys({"type", "file", "grid", "scale", "inside_below", "inside_above"});
   if (shelf == nullptr) json.at("type").refuse_with("\"volume\" shapes stand in scene files only");
-  VolumeSource from{std::string(json.at("file").string())};
+  VolumeSource from{read_file_name(json.at("file"))};
   if (const auto grid = json.find("grid")) from.grid = grid->string();
   if (const auto scale = json.find("scale")) from.scale = scale->positive();
   const auto below = json.find("inside_below"), above = json.find("inside_above");

@@ -22,6 +22,7 @@ std::uint64_t newlines(std::string_view text) {
 }  // namespace
 
 FcdReader::FcdReader(const std::string& path) : reader_(path) {
+  if (begins(byte_order_mark)) consume(byte_order_mark.size());
   while (true) {
     skip_space_and_comments();
     if (begins("<?"))

@@ -10,6 +10,9 @@
 
 namespace gridcull {
 
+/// What some editors put in front of UTF-8.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// Reads a file piece by piece or line by line. Throws Error(io) when it cannot be opened or read, is named
 /// .gz but is not packed, or is a .gz that ends too early or is damaged.
 class TextReader {
@@ -23,7 +26,8 @@ class TextReader {
 
   /// Next piece of at most `size` bytes; 0 at the end.
   std::size_t read(char* into, std::size_t size);
-  /// Next line without its end (\n or \r\n); false at the end. Throws Error(limit) above 1 GiB.
+  /// Next line without its end (\n or \r\n), the first one without a byte order mark; false at the end. Throws
+  /// Error(limit) above 1 GiB.
   bool line(std::string& out);
   /// Number of the line that line() gave last, from 1.
   std::uint64_t line_number() const;

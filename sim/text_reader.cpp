@@ -82,7 +82,11 @@ struct TextReader::Detail {
     const char* message = gzerror(packed, &code);
     // A short read without an error is the end; zlib marks an early end by Z_BUF_ERROR.
     if (code == Z_BUF_ERROR) refuse(name, "the gzip data end too early (a truncated file)");
-    if (got < 0 || code != Z_OK) refuse(name, std::string("the gzip data are damaged: ") + message);
+    if (got < 0 || code != Z_OK) {
+      std::string why = message;
+      if (why.starts_with(name + ": ")) why.erase(0, name.size() + 2);  // zlib names the file too
+      refuse(name, "the gzip data are damaged: " + why);
+    }
     return static_cast<std::size_t>(got);
   }
 
@@ -134,6 +138,7 @@ bool TextReader::line(std::string& out) {
   if (!any) return false;
   ++d.lines;
   if (out.ends_with('\r')) out.pop_back();
+  if (d.lines == 1 && out.starts_with(byte_order_mark)) out.erase(0, byte_order_mark.size());
   return true;
 }
 

@@ -73,6 +73,9 @@ TEST_CASE("centimetres") {
   const Result r = import("# framerate: 16.0\n# id frame x/cm y/cm z/cm\n1 8 250 -50 170\n");
   CHECK(r.frames[0].time == 0.5);
   CHECK(r.frames[0].add.at(0).object.pose.position == Vec3(2.5, -0.5, 0));
+  // As an editor on Windows leaves it.
+  const Result same = import("\xEF\xBB\xBF# framerate: 16.0\r\n# id frame x/cm y/cm z/cm\r\n1 8 250 -50 170\r\n");
+  CHECK(same.frames[0].time == 0.5);
 }
 
 TEST_CASE("bad trajectories are refused by line") {

@@ -210,6 +210,18 @@ TEST_CASE("a box leaves out what is outside, step by step") {
   CHECK(r.imported.movers == 3);
 }
 
+TEST_CASE("a byte order mark and Windows' line ends change nothing") {
+  const TemporaryFolder folder;
+  const auto frames_of = [&](const std::string& steps) {
+    std::string text;
+    for (const Frame& frame : import({}, folder, steps).frames) text += frame_text(frame, 2) + "\n";
+    return text;
+  };
+  std::string windows = "\xEF\xBB\xBF";
+  for (const char c : fcd) windows += c == '\n' ? "\r\n" : std::string(1, c);
+  CHECK(frames_of(windows) == frames_of(fcd));
+}
+
 TEST_CASE("every second step") {
   const TemporaryFolder folder;
   SumoOptions options;

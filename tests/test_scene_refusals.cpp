@@ -73,7 +73,7 @@ TEST_CASE("bad 2D scenes are refused by pointer") {
           {"\"id\": 12", "\"id\": 9", "/objects/2: expected each id once, found 9 twice"},
           {"\"id\": 12", "\"id\": 4294967295", "/objects/2/id: expected an id, an integer from 0 to 4294967294"},
           {"\"id\": 12", "\"id\": -3", "/objects/2/id: expected an id"},
-          {"\"id\": 12", "\"id\": 12.0", "/objects/2/id: expected an id"},
+          {"\"id\": 12", "\"id\": 12.0", "/objects/2/id: expected an id, an integer from 0 to 4294967294, found 12.0"},
           {"\"id\": 12", "\"id\": \"12\"",
            "/objects/2/id: expected an id, an integer from 0 to 4294967294, found \"12\""},
           {"\"id\": 12, ", "", "/objects/2: missing key \"id\""},
@@ -141,6 +141,10 @@ TEST_CASE("bad 3D scenes are refused by pointer") {
           {",[0,0,1]]", ",[1,1,0]]", "/objects/3/shape: convex: expected at least four points, not all in one plane"},
           {"[[0,1,2]]", "[[0,1,3]]",
            "/objects/4/shape/triangles/0/2: expected the number of one of the 3 vertices, found 3"},
+          {"[[0,1,2]]", "[[0,1,-1]]",
+           "/objects/4/shape/triangles/0/2: expected the number of one of the 3 vertices, found -1"},
+          {"[[0,1,2]]", "[[0,1,2.0]]",
+           "/objects/4/shape/triangles/0/2: expected the number of one of the 3 vertices, found 2.0"},
           {"[[0,1,2]]", "[[0,1]]", "/objects/4/shape/triangles/0: expected 3 vertex numbers, found an array of 2"},
           {"[[0,1,2]]", "[]", "/objects/4/shape: faces: expected at least one triangle"},
           {"[1, 4, 2]", "[1, 4]", "/objects/0/position: expected 3 coordinates [x, y, z], found an array of 2"},
@@ -161,7 +165,10 @@ TEST_CASE("text that is no scene at all") {
     return refusal(code, [&] { parse_scene(text, "x"); });
   };
   CHECK(said("", ErrorCode::bad_message).starts_with("x: expected JSON: "));
-  CHECK(said("hello", ErrorCode::bad_message).starts_with("x: expected JSON: "));
+  CHECK(said("hello", ErrorCode::bad_message).starts_with("x: expected JSON: parse error at column 1: "));
+  CHECK(said("{\n?", ErrorCode::bad_message).starts_with("x: expected JSON: parse error at line 2, column 1: "));
+  CHECK(said("\x1f\x8b\x08", ErrorCode::bad_message) ==
+        "x: expected JSON, found gzip data; only files named .gz are unpacked");
   CHECK(said(flat + "}", ErrorCode::bad_message).starts_with("x: expected JSON: "));
   CHECK(said(flat.substr(0, 300), ErrorCode::bad_message).starts_with("x: expected JSON: "));
   CHECK(said("[]", ErrorCode::bad_scene) == "x: expected an object, found an array of 0");

@@ -1,16 +1,21 @@
 // `gridcull serve`: answers simulators over the network.
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include "gridcull/core/error.h"
 #include "gridcull/service/commands.h"
 #include "gridcull/service/option_values.h"
+#include "gridcull/service/server/origins.h"
 #include "gridcull/service/server/server.h"
+#include "gridcull/service/text.h"
 #include "gridcull/sim/text_file.h"
 
 namespace gridcull {
@@ -32,16 +37,27 @@ std::string read_token(const std::string& file) {
   return token;
 }
 
+/// Refused at once, not with the first session.
+void prepare_record(const std::string& folder) {
+  std::error_code fault;
+  std::filesystem::create_directories(folder, fault);
+  if (fault) throw Error(ErrorCode::io, folder + ": the folder cannot be made: " + fault.message());
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw Error(ErrorCode::io, folder + ": cannot be written into: " + std::strerror(errno));
+  }
+}
+
 int serve(ServeOptions options) {
   ServerOptions& server = options.server;
+  for (const std::string& origin : server.allowed_origins) {
+    if (is_origin(origin)) continue;
+    throw option_error("--allow-origin", "an origin as browsers send it, like https://example.org:8443",
+                       origin.empty() ? "nothing" : origin);
+  }
   server.keep = std::chrono::seconds(options.keep);
   server.idle = std::chrono::seconds(options.idle);
   if (!options.token_file.empty()) server.token = read_token(options.token_file);
-  if (!server.record.empty()) {
-    std::error_code fault;
-    std::filesystem::create_directories(server.record, fault);
-    if (fault) throw Error(ErrorCode::io, server.record + ": the folder cannot be made: " + fault.message());
-  }
+  if (!server.record.empty()) prepare_record(server.record);
   Server service(server);
   std::printf("listening on %s\n", service.url().c_str());
   std::fflush(stdout);

@@ -69,7 +69,9 @@ void HttpFront::answer() {
   if (upgrade(request)) return;
   const std::string_view path = path_of(request.target());
   if (request.method() != http::verb::get && request.method() != http::verb::head) {
-    return send(respond(request, http::status::method_not_allowed, plain, "expected GET\n"));
+    Response response = respond(request, http::status::method_not_allowed, plain, "expected GET\n");
+    response.set(http::field::allow, "GET, HEAD");
+    return send(std::move(response));
   }
   if (!origins_.may_use(text_of(request[http::field::origin]), text_of(request[http::field::host]))) {
     return send(respond(request, http::status::forbidden, plain, "another origin\n"));
@@ -81,10 +83,17 @@ void HttpFront::answer() {
   if (path == "/v1/sessions") {
     return send(respond(request, http::status::ok, json, parts_.hub.list().dump() + "\n"));
   }
+  if (path == "/v1/stream") {
+    Response response =
+        respond(request, http::status::upgrade_required, plain, "expected a WebSocket (gridcull.wire/1)\n");
+    response.set(http::field::upgrade, "websocket");
+    return send(std::move(response));
+  }
   if (path == "/v1/trace/scene.json") return send_file(request, parts_.options.trace_scene);
   if (path == "/v1/trace/frames.jsonl") return send_file(request, parts_.options.trace_frames);
   if (path == "/") return send(respond(request, http::status::ok, "text/html; charset=utf-8", page_text()));
-  send(respond(request, http::status::not_found, plain, "not here: expected /, /healthz, /metrics or /v1/sessions\n"));
+  send(respond(request, http::status::not_found, plain,
+               "not here: expected /, /healthz, /metrics or /v1/sessions, or a WebSocket at /v1/stream\n"));
 }
 
 void HttpFront::send_file(const Request& request, const std::string& file) {

@@ -18,6 +18,19 @@ std::string_view without_port(std::string_view host) {
 
 }  // namespace
 
+bool is_origin(std::string_view text) {
+  if (text == "null") return true;
+  const std::size_t end = text.find("://");
+  if (end == std::string_view::npos || end == 0 || end + 3 == text.size()) return false;
+  const std::string_view scheme = text.substr(0, end), host = text.substr(end + 3);
+  const auto all = [](std::string_view part, std::string_view others) {
+    return std::all_of(part.begin(), part.end(), [&](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || others.find(c) != std::string_view::npos;
+    });
+  };
+  return all(scheme, "+-.") && all(host, "-._:[]");
+}
+
 Origins::Origins(const std::string& address, std::uint16_t port, std::vector<std::string> allowed)
     : allowed_(std::move(allowed)) {
   boost::system::error_code fault;

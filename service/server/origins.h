@@ -8,6 +8,10 @@
 
 namespace gridcull {
 
+/// Whether a browser may send this as `Origin`: "null", or a scheme, a host and where wanted a port, in lower case and
+/// without anything behind.
+bool is_origin(std::string_view text);
+
 class Origins {
  public:
   /// `address`, `port`: where the server listens; `allowed`: --allow-origin.

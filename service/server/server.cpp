@@ -188,6 +188,9 @@ void Server::run(bool signals) {
   if (signals) {
     d.signals.add(SIGINT);
     d.signals.add(SIGTERM);
+    // The terminal is gone; nohup says not to mind.
+    struct sigaction before {};
+    if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) d.signals.add(SIGHUP);
     d.signals.async_wait([&d](boost::system::error_code fault, int) {
       if (!fault) d.stop();
     });

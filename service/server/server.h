@@ -19,8 +19,8 @@ class Server {
   /// "http://127.0.0.1:8080".
   std::string url() const;
 
-  /// Serves in `options.threads` threads until stop() or, if `signals`, SIGINT or SIGTERM; then frames in hand are
-  /// finished and connections closed with a reason.
+  /// Serves in `options.threads` threads until stop() or, if `signals`, SIGINT, SIGTERM or SIGHUP; then frames in hand
+  /// are finished and connections closed with a reason.
   void run(bool signals);
   /// From any thread.
   void stop();

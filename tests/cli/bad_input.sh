@@ -125,7 +125,7 @@ printf '{"format": "gridcull.frames/7"}\n{"time": 1}\n' >f.jsonl
 refused "wrong version of frames" "format" run s.json --frames f.jsonl "${everything[@]}"
 printf '{"format": "gridcull.frames/1"}\n{"time": 1}\n' >f.jsonl
 refused "no such frame to draw" "only 1 frame" run s.json --frames f.jsonl --out out/p.jsonl --picture 1:1:out/view.svg
-refused "no such viewer to draw" "viewer 5" run s.json --frames f.jsonl --out out/p.jsonl --picture 0:5:out/view.svg
+refused "no such viewer to draw" "viewer 5 is not there in that frame, but 1$" run s.json --frames f.jsonl --out out/p.jsonl --picture 0:5:out/view.svg
 
 # Files
 refused "no such scene" "missing.json" run missing.json "${everything[@]}"
@@ -134,6 +134,8 @@ refused "a folder as scene" "out" run out
 gzip -c s.json >whole.json.gz
 head -c 60 whole.json.gz >cut.json.gz
 refused "truncated .gz" "cut.json.gz" run cut.json.gz "${everything[@]}"
+cp whole.json.gz packed.json
+refused "packed by another name" "packed.json: expected JSON, found gzip data" run packed.json "${everything[@]}"
 cp s.json plain.json.gz
 refused "a .gz that is none" "plain.json.gz" run plain.json.gz "${everything[@]}"
 { printf '{"format": "gridcull.frames/1"}\n'; for i in $(seq 2000); do printf '{"time": %s.%s}\n' "$i" "$RANDOM"; done; } |
@@ -149,6 +151,11 @@ if [ -e /dev/full ]; then
   checks=$((checks + 1))
   "$program" run s.json --out - >/dev/full 2>stderr.txt
   [ $? -eq 2 ] && [ "$(wc -l <stderr.txt)" -eq 1 ] || fail "a full device: $(cat stderr.txt)"
+  for command in "--version" "run --help"; do
+    # shellcheck disable=SC2086
+    "$program" $command >/dev/full 2>stderr.txt
+    [ $? -eq 2 ] && [ "$(wc -l <stderr.txt)" -eq 1 ] || fail "$command on a full device: $(cat stderr.txt)"
+  done
   "$program" run s.json >/dev/full 2>stderr.txt
   [ $? -eq 2 ] && [ "$(wc -l <stderr.txt)" -eq 1 ] || fail "a table on a full device: $(cat stderr.txt)"
 fi
@@ -178,6 +185,8 @@ refused "a mesh turned by nothing" "--orientation: expected a quaternion" import
 refused "a mesh moved in the plane" "--move: expected three numbers" import mesh one.obj --move 1,2 --out out/m
 refused "a mesh above the limit" "of --max-memory" import mesh one.obj --max-memory 16 --out out/m
 scene3='{"format": "gridcull.scene/1", "dimension": 3, "objects": [{"id": 0, "static": true, "shape": %s, "position": [0, 0, 0]}], "viewers": []}'
+printf "$scene3" '{"type": "mesh", "file": ""}' >unnamed.json
+refused "a scene whose mesh has no name" "/objects/0/shape/file: expected a file name, found \"\"$" info unnamed.json
 printf "$scene3" '{"type": "mesh", "file": "missing.obj"}' >mesh.json
 refused "a scene whose mesh is missing" "mesh.json: /objects/0/shape/file: " info mesh.json
 printf "$scene3" '{"type": "mesh", "file": "one.obj", "group": "roof"}' >mesh.json
@@ -202,7 +211,12 @@ refused "a track cut in the middle" "tracks.txt" import petrack --trajectories t
 # Usage
 refused "no command" "command" --
 refused "unknown command" "fly" fly
-refused "unknown option" "wings" run s.json --wings
+refused "unknown option" "^gridcull: --wings 5 --tail: not expected \(see gridcull run --help\)$" run s.json --wings 5 --tail
+refused "one file too many" "^gridcull: t.json: not expected \(see gridcull run --help\)$" run s.json t.json
+refused "an option without its value" "--threads.*\(see gridcull run --help\)$" run s.json --threads
+refused "an option twice" "--tbv.*\(see gridcull run --help\)$" run s.json --tbv off --tbv off
+refused "an option of an import that is none" "--fcds x: not expected \(see gridcull import sumo --help\)$" \
+  import sumo --fcd fcd.xml --out out/t --fcds x
 refused "no scene" "SCENE" run
 refused "unknown method" "voxel" run s.json --method magic "${everything[@]}"
 refused "unknown bounds" "box, sphere, obb, 14-dop" run s.json --bounds 16-dop "${everything[@]}"

@@ -106,7 +106,7 @@ refused "no room for lists" "larger cells need fewer" bake static city/scene.jso
 cmp -s static.vdb kept.vdb || fail "a bake that failed touched the file that was there"
 refused "no folder" "cannot be written" bake static city/scene.json --out none/x.vdb
 with city/scene.json none.vdb >city/bad.json
-refused "no such file" "city/none.vdb: there is no such file" run city/bad.json
+refused "no such file" "city/bad.json: /static_volume/file: city/none.vdb: there is no such file" run city/bad.json
 with city/scene.json ../town/static.vdb >city/bad.json
 refused "a file of another dimension" "expected cells of a 3D scene, found 2D" run city/bad.json
 with city/scene.json static.vdb 's/"size": \[4/"size": [4.5/' >city/bad.json

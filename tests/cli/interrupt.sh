@@ -3,7 +3,7 @@
 source "$(dirname "$0")/library.sh"
 set -m  # jobs of their own, so that they do not ignore SIGINT
 # A shell that was itself started with SIGINT ignored (a background job) cannot give it back to its jobs; env can.
-heeding=(env --default-signal=INT,TERM)
+heeding=(env --default-signal=INT,TERM,HUP,PIPE)
 
 "$program" make town --out town --count 400 --viewers 40 --range 100 --frames 200 >/dev/null || fail "make"
 
@@ -28,5 +28,14 @@ stopped_by() {  # stopped_by SIGNAL STATUS
 }
 stopped_by INT 130
 stopped_by TERM 143
+stopped_by HUP 129
+
+# Who reads our output has enough: the program ends without a word, and without the file that it had begun.
+checks=$((checks + 3))
+"${heeding[@]}" "$program" run town/scene.json --frames town/frames.jsonl --out - --stats out/stats.json 2>stderr.txt |
+  head -c 100 >/dev/null
+is "status after a broken pipe" "${PIPESTATUS[0]}" 141
+is "left behind after a broken pipe" "$(ls -A out)" ""
+is "said after a broken pipe" "$(cat stderr.txt)" ""
 
 finish

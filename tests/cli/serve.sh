@@ -15,6 +15,10 @@ refused "no address" "--address" serve --address nowhere
 refused "no token" "expected a token" serve --token-file /dev/null
 refused "record" "folder" serve --record /dev/null/x
 refused "threads" "--threads" serve --threads 0
+for origin in "" "*" example.org https://example.org/ https://example.org/page HTTPS://EXAMPLE.ORG; do
+  refused "origin '$origin'" "--allow-origin: expected an origin .*, found ${origin:-nothing}" \
+    serve --port 0 --allow-origin "$origin"
+done
 ended plain
 
 # kill -9 in the middle of 1,000 frames: the record holds at least what was acknowledged, and replays.

@@ -41,20 +41,27 @@ inline Tcp::socket connected(boost::asio::io_context& context, std::uint16_t por
 struct Page {
   unsigned status = 0;
   std::string body{};
+  std::string allow{}, upgrade{};  ///< the headers of these names
 };
 
-inline Page http_get(std::uint16_t port, const std::string& path, const std::string& origin = "",
-                     const std::string& host = "") {
+inline Page http_ask(beast::http::verb method, std::uint16_t port, const std::string& path,
+                     const std::string& origin = "", const std::string& host = "") {
   boost::asio::io_context context;
   Tcp::socket socket = connected(context, port);
-  beast::http::request<beast::http::string_body> request(beast::http::verb::get, path, 11);
+  beast::http::request<beast::http::string_body> request(method, path, 11);
   request.set(beast::http::field::host, host.empty() ? "127.0.0.1:" + std::to_string(port) : host);
   if (!origin.empty()) request.set(beast::http::field::origin, origin);
   beast::http::write(socket, request);
   beast::flat_buffer buffer;
   beast::http::response<beast::http::string_body> response;
   beast::http::read(socket, buffer, response);
-  return {response.result_int(), response.body()};
+  return {response.result_int(), response.body(), response[beast::http::field::allow].to_string(),
+          response[beast::http::field::upgrade].to_string()};
+}
+
+inline Page http_get(std::uint16_t port, const std::string& path, const std::string& origin = "",
+                     const std::string& host = "") {
+  return http_ask(beast::http::verb::get, port, path, origin, host);
 }
 
 /// A WebSocket that says what it is told, right or wrong.

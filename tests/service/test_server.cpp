@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
 #include "gridcull/core/error.h"
 #include "gridcull/core/hash.h"
@@ -98,6 +101,38 @@ TEST_CASE("plain HTTP: health, metrics, sessions, the page, and nothing else") {
   CHECK(http_get(server.port(), "/").body.find("<html") != std::string::npos);
   CHECK(http_get(server.port(), "/etc/passwd").status == 404);
   CHECK(http_get(server.port(), "/", "http://elsewhere.example").status == 403);
+}
+
+TEST_CASE("plain HTTP says what it takes instead") {
+  RunningServer server;
+  for (const auto method : {beast::http::verb::post, beast::http::verb::delete_, beast::http::verb::options}) {
+    const Page refused = http_ask(method, server.port(), "/healthz");
+    CHECK(refused.status == 405);
+    CHECK(refused.allow == "GET, HEAD");
+  }
+  const Page stream = http_get(server.port(), "/v1/stream");
+  CHECK(stream.status == 426);
+  CHECK(stream.upgrade == "websocket");
+  CHECK(stream.body == "expected a WebSocket (gridcull.wire/1)\n");
+}
+
+TEST_CASE("a method or option that cannot be is refused by its place in the message") {
+  RunningServer server;
+  RawSocket client(server.port());
+  const auto refused = [&](const Json& change) {
+    Json message = open_message();
+    message.update(change);
+    const Json answer = client.ask(message);
+    CAPTURE(answer.dump());
+    CHECK(answer.at("type") == "error");
+    CHECK(answer.at("message").get<std::string>().find("--") == std::string::npos);
+    return answer.value("code", "") + " " + answer.value("pointer", "");
+  };
+  CHECK(refused({{"method", "magic"}}) == "bad_message /method");
+  CHECK(refused({{"options", {{"tbv", "square"}}}}) == "bad_message /options/tbv");
+  CHECK(refused({{"options", {{"resolution", 7}}}}) == "bad_message /options/resolution");
+  CHECK(refused({{"options", {{"bounds", "ball"}}}}) == "bad_message /options/bounds");
+  CHECK(refused({{"options", {{"cell", 1e-6}}}}) == "limit /options/cell");
 }
 
 TEST_CASE("a lost connection loses nothing: resume, and answers again") {
@@ -275,6 +310,25 @@ TEST_CASE("a server that stops says so, after the answer in hand") {
   CHECK(client.wait_for_close() == 1001);
   CHECK(idle.wait_for_close() == 1001);
   stopper.join();
+}
+
+TEST_CASE("a session whose record cannot be written is not opened, and leaves nothing") {
+  const TemporaryFolder folder;
+  ServerOptions options;
+  options.record = folder.file("records");
+  RunningServer server(options);
+  RawSocket client(server.port());
+  // No file may grow beyond its first bytes.
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const rlimit full{100, before.rlim_max};
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &full) == 0);
+  const Json refused = client.ask(open_message());
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &before) == 0);
+  CHECK(refused.at("code") == "internal");
+  CHECK(std::filesystem::is_empty(options.record));
+  CHECK(client.ask(open_message()).at("type") == "opened");
 }
 
 TEST_CASE("a record is the session: it replays to the same answers") {

@@ -173,7 +173,7 @@ TEST_CASE("scenes and options that cannot be are refused with their place in the
   CHECK(try_open({{"scene", {{"dimension", 4}}}}) == "bad_scene /dimension");
   CHECK(try_open({{"scene", {{"format", "gridcull.scene/9"}}}}) == "bad_scene /format");
   CHECK(try_open({{"scene", nullptr}}).starts_with("bad_message"));
-  CHECK(try_open({{"method", "guessing"}}) == "bad_message ");
+  CHECK(try_open({{"method", "guessing"}}) == "bad_message /method");
   CHECK(try_open({{"options", {{"cell", -1}}}}) == "bad_message /options/cell");
   CHECK(try_open({{"options", {{"colour", 1}}}}) == "bad_message /options/colour");
   CHECK(try_open({{"options", {{"threads", 5}}}}) == "bad_message /options/threads");
