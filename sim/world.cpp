@@ -62,8 +62,7 @@ bool moves_one_twice(const Frame& frame) {
   if (ascending) return false;
   std::vector<ObjectId> ids(frame.moves());
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = frame.moved(i);
-  std::sort(ids.begin(), ids.end());
-  return std::adjacent_find(ids.begin(), ids.end()) != ids.end();
+  return first_repeated(ids).has_value();
 }
 
 void keep_farthest(double& farthest, const BulkMoves& bulk) {

@@ -283,21 +283,31 @@ TEST_CASE("the walk meets front objects first, skips what is hidden, and finds t
   CHECK(met < all / 2);
 }
 
+/// A random world and view, all objects entered.
+struct Entered {
+  explicit Entered(std::uint64_t seed)
+      : world(random_world_2d(seed, 40)), view(random_view_2d(seed, world)), store(store_of(world)), volume(view, 2) {
+    silhouettes.begin(volume);
+    for (Slot i = 0; i < world.size(); ++i) {
+      if (world[i].id != view.rides) silhouettes.enter(i, store.at(i), world[i].occluder);
+    }
+  }
+
+  std::vector<Object> world;
+  View view;
+  OutlineStore store;
+  ViewVolume volume;
+  Silhouettes2D silhouettes{};
+};
+
 // The cheap test of squares may say no, but never yes where the disc or the box inside shows; across diagonals too.
 TEST_CASE("a square that is hidden for sure hides what it holds") {
   Random random(26);
   int sure = 0, across = 0, hidden = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     CAPTURE(seed);
-    const std::vector<Object> world = random_world_2d(seed, 40);
-    const View view = random_view_2d(seed, world);
-    const OutlineStore store = store_of(world);
-    const ViewVolume volume(view, 2);
-    Silhouettes2D silhouettes;
-    silhouettes.begin(volume);
-    for (Slot i = 0; i < world.size(); ++i) {
-      if (world[i].id != view.rides) silhouettes.enter(i, store.at(i), world[i].occluder);
-    }
+    const Entered entered(seed);
+    const Silhouettes2D& silhouettes = entered.silhouettes;
     const Vec2 eye = silhouettes.sight().eye();
     for (int k = 0; k < 100; ++k) {
       const bool diagonal = k % 3 == 0;
@@ -324,15 +334,8 @@ TEST_CASE("eight boxes at once are asked about as each alone, and none that is h
   int spanned = 0, hidden = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     CAPTURE(seed);
-    const std::vector<Object> world = random_world_2d(seed, 40);
-    const View view = random_view_2d(seed, world);
-    const OutlineStore store = store_of(world);
-    const ViewVolume volume(view, 2);
-    Silhouettes2D silhouettes;
-    silhouettes.begin(volume);
-    for (Slot i = 0; i < world.size(); ++i) {
-      if (world[i].id != view.rides) silhouettes.enter(i, store.at(i), world[i].occluder);
-    }
+    const Entered entered(seed);
+    const Silhouettes2D& silhouettes = entered.silhouettes;
     const Sight2D& sight = silhouettes.sight();
     for (int round = 0; round < 20; ++round) {
       BoxLanes boxes;

@@ -6,8 +6,8 @@
 
 namespace gridcull::fuzz {
 
-/// A message of the wire, as JSON and as CBOR. Small worlds are opened and asked one frame; frames are applied to a small
-/// world: a record of them replays to the same answers, and those that are refused change nothing.
+/// A message of the wire, as JSON and as CBOR. Small worlds are opened and asked one frame; frames are applied to a
+/// small world: a record of them replays to the same answers, and those that are refused change nothing.
 void wire(std::string_view bytes);
 /// A scene file; what is read is written and read again to the same text.
 void scene(std::string_view bytes);
