@@ -31,9 +31,8 @@ struct ExactAnswer {
 /// Throws Error(bad_scene) for 3D shapes, Error(bad_frame) for a view out of range.
 ExactAnswer exact_visible_2d(std::span<const Object> world, const View& view);
 
-/// 3D: dense rays through Embree, one acceleration structure a frame, any number of views. Embree is asked for one
-/// thread, which holds all of TBB in the process to one for as long as such an object lives: keep it no longer than
-/// needed.
+/// 3D: dense rays through Embree, one acceleration structure a frame, any number of views. The calling thread does
+/// all the work.
 class ExactRays {
  public:
   /// Whether the library was built with Embree; the constructor throws Error(usage) if not.

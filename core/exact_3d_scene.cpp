@@ -13,6 +13,7 @@
 #include <limits>
 #include <string>
 
+#include "gridcull/core/embree_device.h"
 #include "gridcull/core/error.h"
 
 namespace gridcull::exact {
@@ -82,7 +83,7 @@ void refuse(const char* what) { throw Error(ErrorCode::internal, std::string("Em
 }  // namespace
 
 struct RayScene::Detail {
-  RTCDevice device = nullptr;
+  RTCDevice device = embree_device();
   RTCScene scene = nullptr;
   Vec3 middle{0.0};
   double blur = 0.0;
@@ -91,7 +92,6 @@ struct RayScene::Detail {
 
   ~Detail() {
     if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) rtcReleaseDevice(device);
   }
 
   void attach(RTCGeometry geometry, Part& part) {
@@ -165,9 +165,6 @@ struct RayScene::Detail {
 
 RayScene::RayScene(const std::vector<Solid>& solids) : detail_(std::make_unique<Detail>()) {
   Detail& d = *detail_;
-  // One thread: the core starts none of its own.
-  d.device = rtcNewDevice("threads=1,set_affinity=0");
-  if (d.device == nullptr) refuse("no device");
   Bounds world;
   for (const Solid& s : solids) world.add(s.world_box.min), world.add(s.world_box.max);
   if (!world.empty()) {
@@ -185,7 +182,7 @@ RayScene::RayScene(const std::vector<Solid>& solids) : detail_(std::make_unique<
   d.add_spheres(solids);
   d.add_meshes(solids);
   d.add_prisms();
-  rtcCommitScene(d.scene);
+  rtcJoinCommitScene(d.scene);
   if (rtcGetDeviceError(d.device) != RTC_ERROR_NONE) refuse("the scene was refused");
 }
 

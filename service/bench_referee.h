@@ -30,11 +30,6 @@ class BenchReferee {
   void prepare(std::uint64_t frame, const World& world, std::span<const View> views);
   /// Adds a contender's answers to its verdict. Nothing where the frame was not prepared.
   void judge(std::uint64_t frame, const Answers& answers, BenchVerdict& verdict) const;
-  /// Everything was judged that will be: lets the rays go. While they are there, Embree holds TBB to one thread in the
-  /// whole process, and times of several threads would be those of one.
-  void finish() {
-    for (auto& [frame, p] : prepared_) p.rays.reset();
-  }
   /// Of each frame that was prepared with all its views: how many objects they see together.
   std::vector<std::pair<std::uint64_t, double>> exact() const;
 

@@ -219,7 +219,6 @@ BenchSceneResult run_bench_scene(const BenchScene& scene, std::span<const Conten
       }
     }
     for (Runner& runner : runners) runner.end_repeat();
-    referee.finish();
   }
   result.exact = referee.exact();
   std::uint64_t queries = 0, exact = 0;

@@ -4,6 +4,8 @@
 #include <random>
 
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 
 #include "gridcull/core/error.h"
 #include "gridcull/core/exact.h"
@@ -206,6 +208,17 @@ TEST_CASE("exact 3d: impossible requests are refused") {
   view.frustum = Frustum{.fov_y = 4.0};
   CHECK_THROWS_AS(rays.visible(view), Error);
   CHECK_FALSE(rays.confirm(View{}, 7, {1, 0, 0}));
+}
+
+TEST_CASE("exact 3d: while its trees are there, TBB has all its threads") {
+  if (skip_without_embree()) return;
+  using Control = tbb::global_control;
+  const auto allowed = static_cast<std::size_t>(tbb::info::default_concurrency());
+  const std::vector<Object> world{Object{.id = 1, .shape = Sphere{1.0}}};
+  const ExactRays rays(world, 4), others(world, 4);
+  CHECK(Control::active_value(Control::max_allowed_parallelism) == allowed);
+  { const ExactRays gone(world, 4); }
+  CHECK(Control::active_value(Control::max_allowed_parallelism) == allowed);
 }
 
 TEST_CASE("a closed mesh hides what is in it from a viewer on its face, as a box does") {
