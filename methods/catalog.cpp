@@ -171,6 +171,9 @@ std::unique_ptr<Culler> make_method(std::string_view name, const MethodOptions& 
       throw Error(ErrorCode::usage, std::string(option) + ": no option of " + std::string(entry.info.name));
     }
   };
+  refuse_others("--resolution", options.resolution > 0 || options.rays_width > 0);
+  refuse_others("--view-box", options.view_box != standard.view_box);
+  refuse_others("--occluders", options.occluders != standard.occluders);
   refuse_others("--criteria", options.criteria != standard.criteria);
   refuse_others("--unions", options.unions != standard.unions);
   refuse_others("--overlap", options.overlap != standard.overlap);

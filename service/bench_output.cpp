@@ -60,14 +60,15 @@ void BenchOutput::commit(const std::string& csv, std::span<const Chart> charts, 
     run_gnuplot(gnuplot, script, svg, png);
   }
   stop_if_interrupted();
+  // The one step that may find the disk full comes first: then there is nothing.
+  d.csv->commit();
+  d.committed = true;
   for (const auto& [part, name] : d.parts) {
     std::error_code fault;
     fs::rename(part, name, fault);
     if (fault) throw Error(ErrorCode::io, name.string() + ": cannot be written: " + fault.message());
   }
   d.parts.clear();
-  d.csv->commit();
-  d.committed = true;
 }
 
 }  // namespace gridcull

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "gridcull/core/error.h"
 #include "gridcull/service/commands.h"
 #include "gridcull/service/interrupt.h"
 #include "gridcull/service/option_values.h"
@@ -39,6 +40,9 @@ std::unique_ptr<Generator> open_generator(const MakeOptions& options) {
   const auto known = generated_scenes();
   if (std::find(known.begin(), known.end(), options.name) == known.end()) {
     throw option_error("SCENE", "one of " + names(), options.name);
+  }
+  if (options.generate.blocks && options.name != "city") {
+    throw Error(ErrorCode::usage, "--blocks: no option of " + options.name);
   }
   auto generator = named_as_typed([&] { return make_generator(options.name, options.generate); });
   // A grid that `run` would refuse is refused here.

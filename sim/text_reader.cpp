@@ -1,6 +1,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -156,7 +157,12 @@ std::string read_text(const std::string& path) {
   TextReader reader(path);
   std::string text;
   std::vector<char> piece(buffer_size);
-  while (const std::size_t n = reader.read(piece.data(), piece.size())) text.append(piece.data(), n);
+  try {
+    while (const std::size_t n = reader.read(piece.data(), piece.size())) text.append(piece.data(), n);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::limit,
+                reader.name() + ": more than fits into memory, after " + std::to_string(text.size()) + " bytes");
+  }
   return text;
 }
 

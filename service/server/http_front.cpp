@@ -44,8 +44,24 @@ void HttpFront::read() {
   parser_->body_limit(largest_body);
   stream_.expires_after(slowest);
   http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code fault, std::size_t) {
-    if (!fault) self->answer();
+    fault ? self->refuse(fault) : self->answer();
   });
+}
+
+/// Tells what came that is no HTTP; whoever merely went away or fell silent hears nothing.
+void HttpFront::refuse(beast::error_code fault) {
+  const beast::error_code some = http::error::bad_method;
+  if (fault.category() != some.category() || fault == http::error::end_of_stream ||
+      fault == http::error::partial_message) {
+    return;
+  }
+  const http::status status = fault == http::error::header_limit ? http::status::request_header_fields_too_large
+                              : fault == http::error::body_limit ? http::status::payload_too_large
+                                                                 : http::status::bad_request;
+  Request unread;
+  unread.version(11);
+  unread.keep_alive(false);
+  send(respond(unread, status, plain, "expected an HTTP request, found: " + fault.message() + "\n"));
 }
 
 HttpFront::Response HttpFront::respond(const Request& request, http::status status, const char* type,

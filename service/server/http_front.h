@@ -31,6 +31,7 @@ class HttpFront : public std::enable_shared_from_this<HttpFront> {
   using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
   void read();
+  void refuse(boost::beast::error_code fault);
   void answer();
   void send_file(const Request& request, const std::string& file);
   bool upgrade(Request& request);

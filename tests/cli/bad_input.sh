@@ -147,6 +147,14 @@ refused "output is a folder" "out" run s.json --out out
 refused "stats in no folder" "nowhere" run s.json --out out/pvs.jsonl --stats nowhere/stats.json
 refused "picture in no folder" "nowhere" run s.json --out out/pvs.jsonl --picture 0:1:nowhere/view.svg
 refused "made below a file" "s.json" make town --out s.json/town
+# An endless file: its name, not only that memory is out. (The sanitizers need more room than is given here.)
+if [ -z "${GRIDCULL_SANITIZE:-}" ]; then
+  checks=$((checks + 1))
+  (ulimit -v 1500000 && exec "$program" info /dev/zero >/dev/null 2>stderr.txt)
+  [ $? -eq 2 ] && grep -q "^gridcull: /dev/zero: more than fits into memory" stderr.txt ||
+    fail "an endless file: $(cat stderr.txt)"
+fi
+
 if [ -e /dev/full ]; then
   checks=$((checks + 1))
   "$program" run s.json --out - >/dev/full 2>stderr.txt
@@ -243,6 +251,13 @@ refused "unions of a kind" "--unions: expected on or off, found some" \
 refused "an overlap of a kind" "--overlap: expected planes or exact" \
   run s.json --method shadow-frusta --overlap nearly "${everything[@]}"
 refused "another method's option" "--unions: no option of voxel" run s.json --method voxel --unions off "${everything[@]}"
+refused "another method's resolution" "--resolution: no option of voxel" \
+  run s.json --method voxel --resolution 64 "${everything[@]}"
+refused "another method's picture" "--resolution: no option of frustum" \
+  run s.json --method frustum --resolution 64x64 "${everything[@]}"
+refused "another method's occluders" "--occluders: no option of silhouette" run s.json --occluders 4 "${everything[@]}"
+refused "another method's box" "--view-box: no option of silhouette" run s.json --view-box 4 "${everything[@]}"
+refused "another scene's blocks" "--blocks: no option of town" make town --blocks 3 --out out/t
 refused "no rays" "rays" check s.json --rays 0
 refused "picture without a file" "picture" run s.json --picture 1:2
 refused "unknown scene to make" "volcano" make volcano --out out/v

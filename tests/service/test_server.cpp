@@ -116,6 +116,33 @@ TEST_CASE("plain HTTP says what it takes instead") {
   CHECK(stream.body == "expected a WebSocket (gridcull.wire/1)\n");
 }
 
+TEST_CASE("what is no HTTP, or too much of it, is told so") {
+  RunningServer server;
+  const std::string host = "Host: 127.0.0.1\r\n";
+  const std::vector<std::pair<std::string, unsigned>> sent{
+      {"\x16\x03\x01 garbage\r\n\r\n", 400},
+      {"GET / HTTP/1.1\r\nno colon here\r\n\r\n", 400},
+      {"GET / HTTP/9.9\r\n" + host + "\r\n", 400},
+      {"GET / HTTP/1.1\r\n" + host + "Content-Length: many\r\n\r\n", 400},
+      {"GET / HTTP/1.1\r\n" + host + "X: " + std::string(20'000, 'x'), 431},
+      {"POST / HTTP/1.1\r\n" + host + "Content-Length: 1000000\r\n\r\n", 413}};
+  for (const auto& [text, status] : sent) {
+    INFO(text.substr(0, 60));
+    boost::asio::io_context context;
+    Tcp::socket socket = connected(context, server.port());
+    boost::asio::write(socket, boost::asio::buffer(text));
+    beast::flat_buffer buffer;
+    beast::http::response<beast::http::string_body> told;
+    beast::error_code fault;
+    beast::http::read(socket, buffer, told, fault);
+    CHECK_FALSE(fault);
+    CHECK(told.result_int() == status);
+    CHECK_FALSE(told.keep_alive());
+    CHECK(told.body().find("expected an HTTP request") == 0);
+  }
+  CHECK(http_get(server.port(), "/healthz").status == 200);
+}
+
 TEST_CASE("a method or option that cannot be is refused by its place in the message") {
   RunningServer server;
   RawSocket client(server.port());
