@@ -8,6 +8,10 @@
 // place where the object was when the index was last told; since then it went no farther than the slack that its node
 // leaves (LooseIndex::slack()), so that it lies in a ball of half the node's side about that place, which the loose box
 // holds like any other that hangs there. Walks ask for its true place when they meet it (is_loose).
+//
+// Claim: a hidden object on its leash lies within its volume. The leash is what the volume leaves about the object's
+// reach, from the place where it was when that was measured; the way since then is at most as long. So whether it left
+// its volume, which jumped_since() would ask, needs not be asked, and its volume and state stay cold.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,6 +51,15 @@ inline bool GridEngine::State::stays_on_leash(Whereabouts& where, const Pose& to
   return true;
 }
 
+// Rounded down by 2^-20, far more than what the float and the way's root round; what the sums round is below the 1e-12
+// of the radius that jumped_since() allows. A source gives poses of which no leash is told.
+bool GridEngine::State::leash_in_volume(Slot slot, const Vec3& position, const TbvMatrix::Ball& ball) {
+  const double left = ball.radius - world.objects[slot].reach - glm::length(position - ball.centre);
+  const bool within = world.source == nullptr && left >= 0.0;
+  world.objects.whereabouts(slot).leash = within ? static_cast<float>((1.0 - 0x1p-20) * left) : -1.0F;
+  return within;
+}
+
 // Whether it is a jump is judged when the frame's time is known. Until then: from where, and how long the farthest of
 // these ways takes.
 inline void GridEngine::State::note_pushed(Slot slot, double square, std::vector<Pushed>& list) {
@@ -69,7 +82,7 @@ void GridEngine::State::move(Slot slot, const Pose& pose) {
   Whereabouts& where = world.objects.whereabouts(slot);
   const Vec3 way = pose.position - where.pose.position;
   const double square = glm::dot(way, way);
-  // Only a moving object that stands in the index has a leash, be it at its end.
+  // Only a moving object that stands in the index or has a volume has a leash, be it at its end.
   if (stays_on_leash(where, pose, square)) {
     note_pushed(slot, square, pushed);
     where.pose = pose;
@@ -85,10 +98,9 @@ void GridEngine::State::move_in_full(Slot slot, const Pose& pose, double square)
   ObjectState& state = world.objects[slot];
   // Simulators that tell everything in every step tell of what stands still too.
   if (state.is_static && same(world.objects.pose(slot), pose)) return;
+  const bool strays = state.place == Place::hidden && !leash_in_volume(slot, pose.position, volume(slot));
   // A moving object that waits was added since the last frame: it has no place there to have jumped from.
-  if (state.moves() && state.place != Place::waiting) {
-    note_pushed(slot, square, state.place == Place::hidden ? pushed_hidden : pushed);
-  }
+  if (state.moves() && state.place != Place::waiting) note_pushed(slot, square, strays ? pushed_strays : pushed);
   world.objects.whereabouts(slot).pose = pose;
   state.known = false;
   leave_tiles(slot);
@@ -122,8 +134,8 @@ void GridEngine::State::mark_stale(Slot slot) {
 
 // A hidden object that moved farther than its max_speed allows since the last frame may be anywhere: it is
 // discretised again. Pushed moves are judged here, since only now the frame's time is known; a pull source
-// announces them by the same rule. Of those who are in nobody's volume one compare says that none jumped; the quotients
-// of pushed_needs are right to 2^-50, far within the rule's 1e-9.
+// announces them by the same rule. One compare says that nobody went too far; the quotients of pushed_needs are right
+// to 2^-50, and half of the rule's 1e-9 is left to them. Who may have left its volume is looked at besides.
 void GridEngine::State::settle_jumps(double time) {
   const double step = started ? time - before : std::numeric_limits<double>::infinity();
   const auto judge = [&](const std::vector<Pushed>& list) {
@@ -134,11 +146,11 @@ void GridEngine::State::settle_jumps(double time) {
       jumped.push_back(p.slot);
     }
   };
-  if (!(pushed_needs <= step * step)) judge(pushed);
-  judge(pushed_hidden);
+  if (!(pushed_needs <= step * step * (1.0 + 1e-9))) judge(pushed);
+  judge(pushed_strays);
   pushed_needs = 0.0;
   pushed.clear();
-  pushed_hidden.clear();
+  pushed_strays.clear();
   if (++round == 0) {
     world.objects.forget_pushes();
     round = 1;

@@ -112,7 +112,7 @@ void GridEngine::State::remove(Slot slot) {
   if (place == Place::active && !state.is_static) unlist_active(slot);
   if (state.jumped) drop(jumped);
   if (world.objects.whereabouts(slot).pushed == round) {
-    for (auto* list : {&pushed, &pushed_hidden}) {
+    for (auto* list : {&pushed, &pushed_strays}) {
       std::erase_if(*list, [&](const Pushed& p) { return p.slot == slot; });
     }
   }
@@ -288,7 +288,10 @@ TbvMatrix::Ball GridEngine::State::next_ball(Slot slot) {
   // Far from time 0 the sum is rounded, perhaps to a later time: the volume must hold until that.
   const double expiry = now + seconds;
   expiries.push(slot, expiry);
-  return {world.objects.pose(slot).position, TbvTerm::radius(max_speed, expiry - now, state.reach)};
+  const Vec3& centre = world.objects.pose(slot).position;
+  const TbvMatrix::Ball ball{centre, TbvTerm::radius(max_speed, expiry - now, state.reach)};
+  leash_in_volume(slot, centre, ball);
+  return ball;
 }
 
 void GridEngine::State::give_volume(Slot slot) {

@@ -54,7 +54,9 @@ struct GridEngine::State {
   /// Whether the object moves on its leash; `square`: of its way, metres.
   static bool stays_on_leash(Whereabouts& where, const Pose& to, double square);
   void move_in_full(Slot slot, const Pose& pose, double square);
-  /// Keeps the object's old position; `list`: pushed or pushed_hidden.
+  /// Gives a hidden object at `position` the leash that its volume leaves it; false: none, it may be outside.
+  bool leash_in_volume(Slot slot, const Vec3& position, const TbvMatrix::Ball& ball);
+  /// Keeps the object's old position; `list`: pushed or pushed_strays.
   void note_pushed(Slot slot, double square, std::vector<Pushed>& list);
   bool jumped_since(const Pushed& push, double step, double time) const;
   /// The object is to be covered at the start of the next frame.
@@ -103,11 +105,11 @@ struct GridEngine::State {
   double before = 0.0;  // time of the frame before
   FrameStats stats;
 
-  std::uint64_t volumes = 0;  // hidden objects
-  std::vector<Slot> active;   // moving objects in O and I
-  std::vector<Slot> waiting;  // added, moved by hand, or jumped: to be discretised at the next frame
-  std::vector<Slot> stale;    // follows_at_once(): marked as stale; whoever still is will be covered
-  std::vector<Pushed> pushed, pushed_hidden;
+  std::uint64_t volumes = 0;                  // hidden objects
+  std::vector<Slot> active;                   // moving objects in O and I
+  std::vector<Slot> waiting;                  // added, moved by hand, or jumped: to be discretised at the next frame
+  std::vector<Slot> stale;                    // follows_at_once(): marked as stale; whoever still is will be covered
+  std::vector<Pushed> pushed, pushed_strays;  // strays: hidden, and perhaps outside their volumes
   /// No object of `pushed` needs longer for its way, at its max_speed; seconds, squared, rounded.
   double pushed_needs = 0.0;
   std::uint16_t round = 1;  // of pushes, between two frames; never 0

@@ -24,8 +24,8 @@ enum class Place : std::uint8_t {
 /// Where an object stands, and what a push of it needs to know.
 struct alignas(64) Whereabouts {
   Pose pose{};
-  /// Metres that it may go before its ball in the index must follow (SilhouetteWorld::Mark::is_loose); below 0: it may
-  /// not, every move is looked at in full.
+  /// Metres that it may go before its ball in the index must follow (SilhouetteWorld::Mark::is_loose), hidden: before
+  /// it may be outside its volume; below 0: it may not, every move is looked at in full.
   float leash = -1.0F;
   std::uint16_t pushed = 0;  ///< the round of pushes (between two frames) for which its old position is kept
   std::uint8_t marks = 0;    ///< of its ball in the index, while it has a leash
