@@ -14,6 +14,13 @@
 using namespace gridcull;
 using namespace gridcull::test;
 
+/// The address sanitizer holds the last 256 MB back.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool keeps_what_is_freed = true;
+#else
+constexpr bool keeps_what_is_freed = false;
+#endif
+
 TEST_CASE("nothing that a client sends harms another") {
   ServerOptions options;
   options.max_message = 200'000;
@@ -115,7 +122,7 @@ TEST_CASE("nothing that a client sends harms another") {
       boost::asio::write(all.back()->socket(), boost::asio::buffer(head));
     }
     for (int i = 0; i < 20; ++i) good_lives();
-    CHECK(resident_bytes() < before + 50'000'000);
+    if (!keeps_what_is_freed) CHECK(resident_bytes() < before + 50'000'000);
   }
   SUBCASE("a client that goes in the middle of a message") {
     for (int i = 0; i < 20; ++i) {
@@ -275,7 +282,7 @@ TEST_CASE("a client that takes no answers is not read from, and cut off after a 
   }
   CHECK(was_full);
   CHECK(fault);
-  CHECK(resident_bytes() < before + 50'000'000);
+  if (!keeps_what_is_freed) CHECK(resident_bytes() < before + 50'000'000);
   CHECK(becomes(server.port(), "gridcull_slow_connections_closed_total 1"));
   CHECK(good.ask(frame_message(1)).at("type") == "pvs");
   RawSocket again(server.port());
