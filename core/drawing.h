@@ -19,7 +19,8 @@ enum class CellLayer {
 };
 
 /// Boxes are [low, high] in metres and stand for one cell, a run of cells or a node of an index, whose sides are whole
-/// cells and which may stick out of the lattice. In 2D z is 0.
+/// cells and which may stick out of the lattice; or, `silhouette` in 2D, for some static objects, as tight as they are.
+/// In 2D z is 0.
 class DrawSink {
  public:
   virtual ~DrawSink() = default;

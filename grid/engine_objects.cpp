@@ -123,12 +123,13 @@ void GridEngine::State::remove(Slot slot) {
 void GridEngine::State::set_outside(Slot slot, bool outside) {
   ObjectState& state = world.objects[slot];
   if (state.outside == outside) return;
-  state.outside = outside;
   if (outside) {
-    state.outside_place = static_cast<std::uint32_t>(world.outside.size());
     world.outside.push_back(slot);
+    state.outside_place = static_cast<std::uint32_t>(world.outside.size() - 1);
+    state.outside = true;
     return;
   }
+  state.outside = false;
   const Slot last = world.outside.back();
   world.outside[state.outside_place] = last;
   world.objects[last].outside_place = state.outside_place;
@@ -270,7 +271,7 @@ bool GridEngine::State::lengthen_term(Slot slot) {
 // them is looked at in every frame.
 bool GridEngine::State::looks_deep(const LooseBall& ball) const {
   const LooseIndex& index = world.silhouettes->index;
-  return index.takes(ball) && !index.lately_opened(ball, options.dimension == 2 ? SilhouetteWalk2D::crowd : 0);
+  return index.takes(ball) && !index.lately_opened(ball);
 }
 
 TbvMatrix::Ball GridEngine::State::volume(Slot slot) const {

@@ -82,16 +82,6 @@ LooseIndex::NodeId LooseIndex::node_of(const Vec3& centre, int level) const {
           dimension_ == 3 ? along(centre.z, box_.min.z, fine.nz) : 0};
 }
 
-bool LooseIndex::lately_opened(const LooseBall& ball, std::uint32_t crowd) const {
-  NodeId id = node_of(ball.centre, level_for(ball.radius));
-  for (bool is_home = true; id.level <= top(); id = {id.level + 1, id.x >> 1, id.y >> 1, id.z >> 1}, is_home = false) {
-    const auto level = static_cast<std::size_t>(id.level);
-    if (!is_home && node(id).below > crowd) return false;
-    if (!opened_[level].empty() && frame_ - opened_[level][levels_[level].index(id, dimension_)] <= lately) return true;
-  }
-  return false;
-}
-
 Bounds LooseIndex::loose_box(const NodeId& id) const {
   const double s = side(id.level);
   const double grown = 0.5 * s + margin_;
@@ -102,13 +92,14 @@ Bounds LooseIndex::loose_box(const NodeId& id) const {
   return box;
 }
 
-// A level counts for the ones above it, so those are in use too.
+// A level counts for the ones above it, so those are in use too. From above, and nodes last: whoever runs out of memory
+// here leaves no level in use without what it needs.
 void LooseIndex::use_level(int level) {
-  for (int l = level; l <= top(); ++l) {
+  for (int l = top(); l >= level; --l) {
     Level& used = levels_[static_cast<std::size_t>(l)];
     if (!used.nodes.empty()) continue;
+    opened_[static_cast<std::size_t>(l)].resize(used.node_count(dimension_));
     used.nodes.resize(used.node_count(dimension_));
-    opened_[static_cast<std::size_t>(l)].resize(used.nodes.size());
   }
 }
 

@@ -1,7 +1,8 @@
 // The index of method `silhouette`: a hierarchy of regular grids with loose cells (DESIGN section 5.6; the
 // hierarchy of Batagelo and Wu 2002, section 3, with one entry an object instead of one a cell).
 //
-// Every object, or the temporal bounding volume of a hidden one, is a single entry with a ball around it. It hangs
+// Every object but those of static_rows_2d.h, or the temporal bounding volume of a hidden one, is a single entry with a
+// ball around it. It hangs
 // in the node that holds the ball's centre, at the level whose side is at least the ball's diameter; so whatever
 // hangs in a node lies within the node's box grown by half a side. Nodes count what hangs in them and below, so that
 // empty space is skipped, and the eight (2D: four) children of a node share a cache line.
@@ -135,9 +136,18 @@ class LooseIndex {
     const auto level = static_cast<std::size_t>(id.level);
     std::atomic_ref(opened_[level][levels_[level].index(id, dimension_)]).store(frame_, std::memory_order_relaxed);
   }
-  /// Whether the node that a ball (takes(ball)) would hang in was opened in this frame or one of the last few, or one
-  /// above it with at most `crowd` entries, which a walk takes with all that is below.
-  bool lately_opened(const LooseBall& ball, std::uint32_t crowd = 0) const;
+  /// The same of the node that the slot's ball hangs in, if it hangs in one.
+  void note_opened(Slot slot) const {
+    const Entry& entry = entries_[slot];
+    if (entry.level == nowhere) return;
+    std::atomic_ref(opened_[entry.level][entry.node]).store(frame_, std::memory_order_relaxed);
+  }
+  /// Whether the node that a ball (takes(ball)) would hang in was opened in this frame or one of the last few.
+  bool lately_opened(const LooseBall& ball) const {
+    const NodeId id = node_of(ball.centre, level_for(ball.radius));
+    const auto level = static_cast<std::size_t>(id.level);
+    return !opened_[level].empty() && frame_ - opened_[level][levels_[level].index(id, dimension_)] <= lately;
+  }
 
   /// Hints that the slot will be asked for soon.
   void prefetch(Slot slot) const { __builtin_prefetch(&entries_[slot]); }

@@ -59,14 +59,15 @@ bool Silhouettes2D::enter(Slot slot, const Placed2D& object, bool occluder) {
   return true;
 }
 
-// An object that may hold the viewer or seems tiny needs its disc (the box is grown by far more than a tie and the
-// roundings here); so does a disc, and what reaches beyond the range.
+// An object that may hold the viewer or seems tiny needs its disc; so does a disc, and what reaches beyond the range.
+// (Outlines whose edges are nearer than some ties count as about the viewer, and then only the disc says whether they
+// are in the field of view: the gap is beyond that, and beyond the roundings here.)
 bool Silhouettes2D::enter_boxed(Slot slot, const Placed2D& object, bool occluder, const Box2D& box) {
   const Vec2 centre = object.centre - sight_.eye();
   const double square = glm::dot(centre, centre);
   const Vec2 low = box.low - sight_.eye(), high = box.high - sight_.eye();
   const double gap = std::max({low.x, -high.x, low.y, -high.y});
-  const bool clear = gap > 1e-9 * (std::fabs(centre.x) + std::fabs(centre.y) + object.radius) + 4.0 * sight_.blur();
+  const bool clear = gap > 1e-9 * (std::fabs(centre.x) + std::fabs(centre.y) + object.radius) + 256.0 * sight_.blur();
   if (!clear || object.outline == nullptr || !within_range(square, object.radius) ||
       Sight2D::seems_tiny(square, object.radius)) {
     return enter(slot, object, occluder);

@@ -1,8 +1,8 @@
-// Claim: the answer holds every visible object X. If X is placed, its ball hangs in the index or in the list of what
-// does not fit there, and if X was not met it is hidden (silhouette_walk_2d.h); if it was met, it was entered and
-// the claim of silhouette_2d.h holds. If X has a temporal bounding volume, the same holds for the volume, which holds
-// X: one that is not wholly hidden is revealed, and X is entered as it stands. What the viewer rides on is left out
-// altogether.
+// Claim: the answer holds every visible object X. If X is placed, it has a row (static_rows_2d.h), or its ball hangs in
+// the index or in the list of what does not fit there, and if X was not met it is hidden (silhouette_walk_2d.h); if it
+// was met, it was entered and the claim of silhouette_2d.h holds. If X has a temporal bounding volume, the same holds
+// for the volume, which holds X: one that is not wholly hidden is revealed, and X is entered as it stands. What the
+// viewer rides on is left out altogether.
 #include "gridcull/grid/silhouette_task_2d.h"
 
 #include <algorithm>
@@ -69,6 +69,7 @@ void SilhouetteTask2D::meet(const BallRows::Item& item) {
   ++answer_->work.tbv_tests;
   if (!silhouettes_.shows_disc(Vec2(item.ball.centre), item.ball.radius)) return;
   ++answer_->work.tbv_revealed;
+  shapes.index.note_opened(slot);
   const Pose pose = world_->read(slot);
   std::vector<Vec2>& points = points_of(result_->revealed.size());
   result_->revealed.push_back(slot);

@@ -58,7 +58,7 @@ void SilhouetteWalk2D::take(const Spot& spot, const LooseIndex::Node& node) {
   const double square = glm::dot(d, d);
   if (square > limit_ * limit_) return;
   if (node.below <= crowd) {
-    if (node.below > 0) index_->note_opened(spot.id);
+    // Nobody asked whether they can be seen, so that says nothing of what may hang here (LooseIndex::lately_opened()).
     if (noted_ != nullptr && node.below > 0) noted_->opened.push_back(spot.id);
     gather(spot.id, node);
   } else {
@@ -118,8 +118,6 @@ void SilhouetteWalk2D::push(const BallRows::Item& item, BallRows::Place place) {
   pushed_.push_back(item.slot);
 }
 
-// The lowest rows wait until most of what is before their middle has been met: who is asked about earlier is hidden
-// less often.
 void SilhouetteWalk2D::push_row(const RowSpot& spot) {
   const double square = square_of(spot.box);
   if (square > limit_ * limit_) return;

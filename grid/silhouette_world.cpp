@@ -148,10 +148,25 @@ Box2D SilhouetteWorld::box_of(Slot slot) const {
   return box;
 }
 
+void SilhouetteWorld::note_static(Slot slot) {
+  const std::uint8_t marks = index.marks(slot);
+  if ((marks & is_unsettled) != 0 || !index.holds(slot)) return;
+  if (unsettled_.size() >= 2 * marked_ + few_statics) forget_unmarked();
+  unsettled_.push_back(slot);
+  index.set_marks(slot, marks | is_unsettled);
+  ++marked_;
+}
+
+// A slot that was used again may be there twice.
+void SilhouetteWorld::forget_unmarked() {
+  std::erase_if(unsettled_, [&](Slot slot) { return (index.marks(slot) & is_unsettled) == 0; });
+  std::sort(unsettled_.begin(), unsettled_.end());
+  unsettled_.erase(std::unique(unsettled_.begin(), unsettled_.end()), unsettled_.end());
+}
+
 // Nobody leaves the index before the rows are there: whoever runs out of memory here has lost nothing.
 void SilhouetteWorld::build_rows() {
-  std::sort(unsettled_.begin(), unsettled_.end());  // some were noted twice
-  unsettled_.erase(std::unique(unsettled_.begin(), unsettled_.end()), unsettled_.end());
+  forget_unmarked();
   std::vector<StaticRows2D::Member> members;
   members.reserve(rows.size() + unsettled_.size());
   rows.for_each([&](Slot slot, bool occluder, const Box2D& box) { members.push_back({slot, occluder, box}); });
@@ -159,7 +174,10 @@ void SilhouetteWorld::build_rows() {
   StaticRows2D all;
   all.build(members);
   std::swap(rows, all);
-  for (const Slot slot : unsettled_) index.erase(slot);
+  for (const Slot slot : unsettled_) {
+    unmark(slot);
+    index.erase(slot);
+  }
   unsettled_.clear();
   age_ = 0;
 }

@@ -1,5 +1,6 @@
-// The world as method `silhouette` keeps it: every object as one ball in the loose index, beside what hides with it
-// and what it is tested with. Frozen while views are answered, but for the notes of what was seen.
+// The world as method `silhouette` keeps it: every object as one ball in the loose index, or in 2D, what stands still,
+// as a box in a row (static_rows_2d.h); beside what hides with it and what it is tested with. Frozen while views are
+// answered, but for the notes of what was seen.
 #pragma once
 
 #include <array>
@@ -29,6 +30,7 @@ class SilhouetteWorld {
   void reserve(std::size_t slots);
   /// Takes the slot out of the index or its row.
   void leave(Slot slot) {
+    unmark(slot);
     index.erase(slot);
     rows.remove(slot);
   }
@@ -81,9 +83,10 @@ class SilhouetteWorld {
     is_ball = 2,     ///< 3D: tested as the ball of ball_at(), without a Solid
     is_hidden = 4,   ///< the index has its temporal bounding volume instead of its ball
     is_occluder = 8,
-    has_filling = 16,  ///< 3D: upright it fills part of its ball only
-    is_upright = 32,   ///< and it stands upright now: turned about +z only
-    is_loose = 64      ///< its ball in the index lags behind: it is about the object's position, wherever that is
+    has_filling = 16,   ///< 3D: upright it fills part of its ball only
+    is_upright = 32,    ///< and it stands upright now: turned about +z only
+    is_loose = 64,      ///< its ball in the index lags behind: it is about the object's position, wherever that is
+    is_unsettled = 128  ///< 2D: static, and waits for a row
   };
   /// Within what a ball's item says of its object, relative to the ball's centre: metres along x and y, and along z.
   struct Filling {
@@ -132,15 +135,17 @@ class SilhouetteWorld {
     if (index.dimension() == 2) outlines.place(slot, pose);
   }
 
-  /// 2D: a static object of `index` shall have a row from the next settle() on.
-  void note_static(Slot slot) { unsettled_.push_back(slot); }
+  /// 2D: a static object shall have a row from the next settle() on, if it hangs in `index`.
+  void note_static(Slot slot);
   /// Gives static objects their rows, when enough are waiting for it or have left. `keeps(slot)`: whether a slot that
   /// was noted is a static object still.
   template <class Keeps>
   void settle(Keeps&& keeps) {
     ++age_;
     if (!worth_settling()) return;
-    std::erase_if(unsettled_, [&](Slot slot) { return !index.holds(slot) || !keeps(slot); });
+    for (const Slot slot : unsettled_) {
+      if (!index.holds(slot) || !keeps(slot)) unmark(slot);
+    }
     build_rows();
   }
 
@@ -150,9 +155,16 @@ class SilhouetteWorld {
 
  private:
   bool worth_settling() const {
-    const std::size_t changed = unsettled_.size() + rows.holes();
+    const std::size_t changed = marked_ + rows.holes();
     return changed >= few_statics && 8 * changed >= rows.size() && age_ >= frames_between_builds;
   }
+  void unmark(Slot slot) {
+    const std::uint8_t marks = index.marks(slot);
+    if ((marks & is_unsettled) == 0) return;
+    index.set_marks(slot, static_cast<std::uint8_t>(marks & ~is_unsettled));
+    --marked_;
+  }
+  void forget_unmarked();
   void build_rows();
   Box2D box_of(Slot slot) const;
   std::unique_ptr<Solid> make_solid(const Shape& shape) const;
@@ -168,7 +180,8 @@ class SilhouetteWorld {
   /// Fewer are not worth rows; nor are rows worth building anew in every frame for statics that are moved in every one.
   static constexpr std::size_t few_statics = 8;
   static constexpr std::uint64_t frames_between_builds = 64;
-  std::vector<Slot> unsettled_;                // 2D: static objects that hang in the index
+  std::vector<Slot> unsettled_;  // 2D: whoever is marked as is_unsettled, perhaps twice, and some who were
+  std::size_t marked_ = 0;       // objects
   std::uint64_t age_ = frames_between_builds;  // settle()s since the last build; the first one waits for nothing
   std::vector<Body> bodies_;
   std::map<std::array<double, 3>, std::weak_ptr<const Solid>> boxes_;  // by size

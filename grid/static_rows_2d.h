@@ -9,9 +9,11 @@
 // building.
 //
 // Claim: every member lies in its box, and every box in those of the rows above it. Boxes never shrink but by a
-// rebuild: a member that leaves only empties its lane. Which members share a row changes no answer.
+// rebuild: a member that leaves only empties its lane. Which members share a row changes no answer, but for ties.
 //
-// Cost: building n log^2 n once; 41 bytes a member and 2 a row, 4 a slot.
+// Cost: building n log^2 n once; 46 bytes a member with the rows above it, 4 a slot. Long members spoil the boxes of
+// their rows: 200 lines of 1,000 m among 19,600 buildings cost 2 % of a view's instructions, 2,500 of them a fifth of
+// its time.
 #pragma once
 
 #include <array>

@@ -267,11 +267,14 @@ std::string Painter::svg() {
 }  // namespace
 
 void PictureSink::cells(CellLayer layer, const Vec3& low, const Vec3& high) {
-  // Boundaries are multiples of the cell up to rounding; half a cell inside of them lies the cell meant.
-  const double half = 0.5 * lattice_.cell();
-  const auto first = [&](int axis) { return lattice_.index(axis, low[axis] + half); };
-  const auto end = [&](int axis) { return lattice_.index(axis, high[axis] - half) + 1; };
+  // Boundaries are multiples of the cell up to rounding, but for boxes about objects: of those, cells that are wholly
+  // within are hidden, and cells that they touch are whatever else.
+  const double rounding = 1e-6 * lattice_.cell();
+  const double inside = layer == CellLayer::hidden ? lattice_.cell() - rounding : rounding;
+  const auto first = [&](int axis) { return lattice_.index(axis, low[axis] + inside); };
+  const auto end = [&](int axis) { return lattice_.index(axis, high[axis] - inside) + 1; };
   const bool flat = lattice_.dimension() == 2;
+  if (first(0) >= end(0) || first(1) >= end(1)) return;
   for (std::int64_t z = flat ? 0 : first(2); z < (flat ? 1 : end(2)); ++z) {
     planes_[{layer, z}].add({first(0), first(1), end(0), end(1)});
   }

@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include "gridcull/core/shape.h"
+#include "gridcull/grid/engine.h"
 #include "gridcull/grid/tbv_matrix.h"
 #include "gridcull/grid/tbv_octree.h"
 #include "gridcull/grid/tbv_volume_tree.h"
@@ -159,6 +160,26 @@ TEST_CASE("the counter counts") {
   const std::uint64_t before = allocations;
   std::vector<int> v(100);
   CHECK(allocations == before + 1);
+}
+
+TEST_CASE("nor where some of what stands still is moved by hand in every frame") {
+  GridEngine engine({.dimension = 2, .bounds = {{0, 0, 0}, {600, 600, 0}}, .cell = 2.0});
+  const auto place = [](ObjectId id, double aside) {
+    return Pose{{15.0 * static_cast<double>(id % 40) + 5.0 + aside, 15.0 * static_cast<double>(id / 40) + 5.0, 0.0}};
+  };
+  for (ObjectId id = 0; id < 1600; ++id) {
+    engine.add({.id = id, .shape = Rectangle{{10, 8}}, .pose = place(id, 0.0), .is_static = true});
+  }
+  const std::vector<View> views{View{.viewer = 1, .pose = {{300, 297, 0}}}, View{.viewer = 2, .pose = {{12, 12, 0}}}};
+  Answers answers;
+  std::uint64_t in_query = 0;
+  for (int frame = 0; frame < 300; ++frame) {
+    for (ObjectId door = 0; door < 1600; door += 40) engine.move(door, place(door, frame % 2 == 0 ? 0.0 : 0.1));
+    const std::uint64_t before = allocations;
+    engine.query(0.1 * frame, views, answers);
+    if (frame >= 100) in_query += allocations - before;
+  }
+  CHECK(in_query == 0);
 }
 
 TEST_CASE("a steady frame allocates nothing") {

@@ -174,6 +174,14 @@ TEST_CASE("what is tiny as a whole is seen, and so is anything in a view as narr
   narrow.fov = 1e-11;
   CHECK(alone({.id = 4, .shape = Disc{1}, .pose = {{40, 0, 0}, {}}}, narrow));
   CHECK(alone({.id = 5, .shape = Rectangle{{2, 2}}, .pose = {{40, 0, 0}, {}}}, narrow));
+  // The same of one that comes with its box, be it no occluder, whom something covers but for less than counts.
+  Silhouettes2D silhouettes;
+  const std::vector<Object> alone_with_box{{.id = 7, .shape = Rectangle{{1e-3, 1e-3}}, .pose = {{9.9e8, 1e3, 0}, {}}}};
+  const OutlineStore store = store_of(alone_with_box);
+  const ViewVolume all_round(View{}, 2);
+  silhouettes.begin(all_round);
+  silhouettes.enter_boxed(0, store.at(0), false, {{9.9e8 - 1e-3, 1e3 - 1e-3}, {9.9e8 + 1e-3, 1e3 + 1e-3}});
+  CHECK(listed(alone_with_box, silhouettes) == std::vector<ObjectId>{7});
   // Behind something it is hidden all the same.
   const std::vector<Object> world{{.id = 1, .shape = Rectangle{{2, 2}}, .pose = {{20, 0, 0}, {}}},
                                   {.id = 2, .shape = Rectangle{{1, 1}}, .pose = {{40, 0, 0}, {}}}};

@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -184,10 +185,57 @@ TEST_CASE("statics that are told where they stand anyway keep their rows") {
   engine.query(1.0, views, answers);
   CHECK(answers.views[0].work.cells_visited == first.cells_visited);
   CHECK(answers.views[0].work.object_tests == first.object_tests);
-  // One that does move is found where it is.
+  // One that does move is found where it is, and nowhere else.
   engine.move(28, {{56, 50, 0}});
   engine.query(2.0, views, answers);
   CHECK(std::count(answers.views[0].visible.begin(), answers.views[0].visible.end(), 28) == 1);
+  CHECK(answers.views[0].work.object_tests == first.object_tests);
+}
+
+TEST_CASE("a row is met wherever the range reaches one of its members") {
+  GridEngine engine({.dimension = 2, .bounds = {{0, 0, 0}, {200, 100, 0}}, .cell = 1.0});
+  for (ObjectId id = 0; id < 16; ++id) {
+    engine.add(
+        make_static(id, Rectangle{{2, 2}}, {100.0 + 5.0 * (id % 4), 50.0 + 5.0 * static_cast<double>(id / 4), 0}));
+  }
+  Answers answers;
+  double time = 0.0;
+  for (double away = 1.0; away < 90.0; away += 1.7) {
+    CAPTURE(away);
+    View view = make_view(1, {99.0 - away, 50.5, 0});
+    view.range = away * (1.0 + 1e-6);
+    engine.query(++time, std::vector{view}, answers);
+    CHECK(answers.views[0].visible == std::vector<ObjectId>{0});
+    view.range = away * (1.0 - 1e-6);
+    engine.query(++time, std::vector{view}, answers);
+    CHECK(answers.views[0].visible.empty());
+  }
+}
+
+/// A source that is down.
+class Silent final : public PositionSource {
+ public:
+  Pose pose(ObjectId) override { throw std::runtime_error("no answer"); }
+};
+
+TEST_CASE("statics that are told of while no frame can be answered take no memory that grows") {
+  GridEngine engine({.dimension = 2, .bounds = {{0, 0, 0}, {100, 100, 0}}, .cell = 1.0});
+  Silent source;
+  for (ObjectId id = 0; id < 32; ++id) {
+    engine.add(make_static(id, Rectangle{{2, 2}}, {12.0 * (id % 8) + 2, 12.0 * static_cast<double>(id / 8), 0}));
+  }
+  engine.add(make_object(99, Disc{0.3}, {50, 50, 0}, 1.0));
+  engine.set_source(&source);
+  Answers answers;
+  const auto frames = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      engine.move(5, {{60 + 0.1 * (i % 2), 0, 0}});
+      CHECK_THROWS(engine.query(1.0 + i, std::vector{make_view(1, {50, 90, 0})}, answers));
+    }
+    return engine.memory().total();
+  };
+  const std::uint64_t before = frames(100);
+  CHECK(frames(3000) == before);
 }
 
 }  // namespace gridcull::test

@@ -153,6 +153,16 @@ TEST_CASE("where it is known what the viewer sees, that is drawn and cells looke
   CHECK(document.select_node("//path[@class='visited']").node().empty());
 }
 
+TEST_CASE("of a box about objects those cells are hidden that lie within it, and those looked into that it touches") {
+  const Lattice lattice(2, {{0, 0, 0}, {10, 10, 0}}, 1.0, 1 << 20);
+  PictureSink sink(lattice);
+  sink.cells(CellLayer::hidden, {1.4, 1.4, 0}, {1.6, 8.6, 0});  // no whole cell
+  sink.cells(CellLayer::hidden, {3.4, 1.4, 0}, {6.6, 3.0, 0});
+  sink.cells(CellLayer::visited, {3.4, 5.4, 0}, {4.6, 6.0, 0});
+  CHECK(path_of(sink.plane(CellLayer::hidden, 0).merged()) == "M4 2h2v1h-2z");
+  CHECK(path_of(sink.plane(CellLayer::visited, 0).merged()) == "M3 5h2v1h-2z");
+}
+
 TEST_CASE("in three dimensions only the viewer's layer is drawn") {
   const Lattice lattice(3, {{0, 0, 0}, {10, 10, 10}}, 1.0, 1 << 20);
   PictureSink sink(lattice);
