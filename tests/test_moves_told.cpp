@@ -116,14 +116,14 @@ TEST_CASE("an object that creeps is met where it is, however small its steps") {
   for (const bool pulls : {false, true}) {
     CAPTURE(pulls);
     GridOptions small = options(3, Hiding::silhouette, TbvMode::off);
-    small.bounds = {{0, 0, 0}, {40, 40, 12}};
+    small.bounds = {{0, 0, 0}, {80, 48, 12}};
     GridEngine engine(small);
     Random random(5);
     ProbedWorld source;
     // A crowd behind a wall, whose nodes are hidden as nodes.
-    std::vector<Object> objects{make_static(0, Cuboid{{2, 14, 20}}, {16, 20, 6})};
+    std::vector<Object> objects{make_static(0, Cuboid{{2, 6, 20}}, {16, 20, 6})};
     for (ObjectId id = 1; id <= 1000; ++id) {
-      const Vec3 place(random.uniform(20, 24), random.uniform(16, 22), random.uniform(5, 7));
+      const Vec3 place(random.uniform(60, 64), random.uniform(16, 22), random.uniform(5, 7));
       objects.push_back(make_object(id, Sphere{0.2 + 0.01 * (id % 20)}, place, 5.0));
       source.poses[id] = objects.back().pose;
     }
@@ -136,7 +136,7 @@ TEST_CASE("an object that creeps is met where it is, however small its steps") {
       std::vector<Move> moves;
       for (Object& o : objects) {
         if (o.is_static) continue;
-        o.pose.position.y += 0.002 * (1 + o.id % 50);
+        o.pose.position.y += 0.003 * (1 + o.id % 50);
         source.poses[o.id] = o.pose;
         moves.push_back({o.id, o.pose});
       }

@@ -20,13 +20,14 @@ struct Field {
 
   double z() const { return dimension == 3 ? 16.125 : 0.0; }
 
-  /// From the viewer in the middle the wall hides the south-east border, but no line to what lies far beyond it.
+  /// From the viewer in the west the wall hides the south-east border with some nodes of the index that stick out of it,
+  /// but no line to what lies far beyond.
   std::vector<Object> objects() const {
-    const Shape slab = dimension == 2 ? Shape(Rectangle{{1, 12}}) : Shape(Cuboid{{1, 12, 64}});
+    const Shape slab = dimension == 2 ? Shape(Rectangle{{4, 77}}) : Shape(Cuboid{{4, 77, 640}});
     const Shape ball = dimension == 2 ? Shape(Disc{0.4}) : Shape(Sphere{0.4});
-    std::vector<Object> out{make_static(wall, slab, {28, 4, z()})};
+    std::vector<Object> out{make_static(wall, slab, {100, 23.5, z()})};
     for (int i = 0; i < crowd; ++i) {
-      Object far = make_object(first_far + static_cast<ObjectId>(i), ball, {200.0 + 3 * i, 1, z()}, 0.5);
+      Object far = make_object(first_far + static_cast<ObjectId>(i), ball, {3000.0 + 3 * i, 1, z()}, 0.5);
       far.is_static = !moving;
       far.occluder = false;
       out.push_back(far);
@@ -38,12 +39,12 @@ struct Field {
 void check_field(const MethodEntry& method, const Field& field, const char* tbv) {
   MethodOptions options;
   options.dimension = field.dimension;
-  options.bounds = {{0, 0, 0}, {32, 32, field.dimension == 3 ? 32.0 : 0.0}};
-  options.cell = 0.5;
+  options.bounds = {{0, 0, 0}, {256, 256, field.dimension == 3 ? 32.0 : 0.0}};
+  options.cell = 1.0;
   options.tbv = tbv;
   const auto culler = method.make(options);
   for (const Object& object : field.objects()) culler->add(object);
-  const View view = make_view(1, {16, 16, field.z()});
+  const View view = make_view(1, {64, 64, field.z()});
   Answers answers;
   for (int frame = 0; frame < 3; ++frame) {
     CAPTURE(frame);
