@@ -239,15 +239,16 @@ void add_limits(std::vector<HandMadeScene>& out) {
                     .object(2, sphere(1), {10, 0, 2})
                     .sees({0, 2})
                     .hides({1}));
-  out.push_back(scene("a pearl half sunk into a ball, near its rim, is before the rim and behind the ball's nearest point")
-                    .eye({0, 0, 0})
-                    .frustum(60, 1, 0, 100)
-                    .object(0, sphere(10), {30, 0, 0})
-                    .object(1, sphere(0.3), {23.57, 7.66, 0})
-                    .object(2, sphere(0.3), {23.57, 0, 7.66})
-                    .object(3, sphere(0.3), {32, 4, 0})
-                    .sees({0, 1, 2})
-                    .hides({3}));
+  out.push_back(
+      scene("a pearl half sunk into a ball, near its rim, is before the rim and behind the ball's nearest point")
+          .eye({0, 0, 0})
+          .frustum(60, 1, 0, 100)
+          .object(0, sphere(10), {30, 0, 0})
+          .object(1, sphere(0.3), {23.57, 7.66, 0})
+          .object(2, sphere(0.3), {23.57, 0, 7.66})
+          .object(3, sphere(0.3), {32, 4, 0})
+          .sees({0, 1, 2})
+          .hides({3}));
   out.push_back(scene("far is a plane")
                     .eye({0, 0, 0})
                     .frustum(90, 1, 0, 20)
