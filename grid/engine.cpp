@@ -127,7 +127,8 @@ void GridEngine::draw_next(ViewerId viewer, DrawSink* sink) {
 const Lattice& GridEngine::lattice() const { return state_->world.lattice; }
 
 std::uint64_t GridEngine::State::list_bytes() const {
-  std::uint64_t bytes = (pushed.capacity() + pushed_strays.capacity()) * sizeof(Pushed) + seen.capacity();
+  std::uint64_t bytes = (pushed.capacity() + pushed_strays.capacity()) * sizeof(Pushed) + seen.capacity() +
+                        world.outside.capacity() * sizeof(Slot);
   for (const auto* list : {&active, &waiting, &stale, &told, &jumped, &expired, &hiding}) {
     bytes += list->capacity() * sizeof(Slot);
   }

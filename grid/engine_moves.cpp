@@ -128,8 +128,18 @@ void GridEngine::State::move_all(std::span<const Move> moves) {
 void GridEngine::State::mark_stale(Slot slot) {
   Whereabouts& where = world.objects.whereabouts(slot);
   where.leash = -1.0F;
-  if (follows_at_once() && !where.stale) stale.push_back(slot);
+  if (follows_at_once() && !where.stale) {
+    if (stale.size() == stale.capacity()) forget_removed();
+    stale.push_back(slot);
+  }
   where.stale = true;
+}
+
+// The list has room for every slot once (add()): it is full only of objects that are gone, where frames keep failing.
+void GridEngine::State::forget_removed() {
+  std::erase_if(stale, [&](Slot slot) { return !world.objects.whereabouts(slot).stale; });
+  std::sort(stale.begin(), stale.end());  // a slot that was used again may be there twice
+  stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
 }
 
 // A hidden object that moved farther than its max_speed allows since the last frame may be anywhere: it is

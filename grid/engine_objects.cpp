@@ -95,6 +95,8 @@ void GridEngine::State::add(const Object& object) {
   expiries.reserve(slots);
   seen.resize(slots, 0);
   if (follows_at_once() && slots > stale.capacity()) stale.reserve(slots + slots / 8);
+  // No frame may run out of memory between taking somebody out of the index and listing it there.
+  if (slots > world.outside.capacity()) world.outside.reserve(slots + slots / 8);
   seen[slot] = 0;
 }
 
@@ -148,14 +150,19 @@ void GridEngine::State::find_cells(Slot slot) {
   state.known = false;
 }
 
+// Stale until all is done: whoever is torn out of it by want of memory is covered in the next frame.
 void GridEngine::State::cover(Slot slot) {
-  world.objects.whereabouts(slot).stale = false;
-  if (world.silhouettes) return hang(slot);
   ObjectState& state = world.objects[slot];
-  if (state.tiled) return set_outside(slot, world.tiles->reaches_outside(state.id));
-  find_cells(slot);
-  world.matrix.update(slot, cover_buffer, state.occluder, state.is_static, state.entries);
-  set_outside(slot, cover_buffer.outside);
+  if (world.silhouettes) {
+    hang(slot);
+  } else if (state.tiled) {
+    set_outside(slot, world.tiles->reaches_outside(state.id));
+  } else {
+    find_cells(slot);
+    world.matrix.update(slot, cover_buffer, state.occluder, state.is_static, state.entries);
+    set_outside(slot, cover_buffer.outside);
+  }
+  world.objects.whereabouts(slot).stale = false;
 }
 
 // The object's own ball, in the index.

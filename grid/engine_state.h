@@ -61,6 +61,7 @@ struct GridEngine::State {
   bool jumped_since(const Pushed& push, double step, double time) const;
   /// The object is to be covered at the start of the next frame.
   void mark_stale(Slot slot);
+  void forget_removed();
   /// Discretises the object in O and I at its present pose.
   void cover(Slot slot);
   /// cover() of method `silhouette`.

@@ -3,6 +3,7 @@
 // answered, but for the notes of what was seen.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -155,7 +156,8 @@ class SilhouetteWorld {
 
  private:
   bool worth_settling() const {
-    const std::size_t changed = marked_ + rows.holes();
+    // Who is moved has left its row and waits for another: it counts once.
+    const std::size_t changed = std::max(marked_, rows.holes());
     return changed >= few_statics && 8 * changed >= rows.size() && age_ >= frames_between_builds;
   }
   void unmark(Slot slot) {

@@ -269,7 +269,8 @@ std::string Painter::svg() {
 void PictureSink::cells(CellLayer layer, const Vec3& low, const Vec3& high) {
   // Boundaries are multiples of the cell up to rounding, but for boxes about objects: of those, cells that are wholly
   // within are hidden, and cells that they touch are whatever else.
-  const double rounding = 1e-6 * lattice_.cell();
+  const double far = std::max({std::fabs(low.x), std::fabs(low.y), std::fabs(high.x), std::fabs(high.y)});
+  const double rounding = std::min(0.5 * lattice_.cell(), 1e-6 * lattice_.cell() + 0x1p-50 * far);
   const double inside = layer == CellLayer::hidden ? lattice_.cell() - rounding : rounding;
   const auto first = [&](int axis) { return lattice_.index(axis, low[axis] + inside); };
   const auto end = [&](int axis) { return lattice_.index(axis, high[axis] - inside) + 1; };

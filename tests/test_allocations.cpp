@@ -22,9 +22,11 @@
 namespace {
 
 std::atomic<std::uint64_t> allocations{0};
+std::atomic<long> left{-1};  // allocations until one fails; below 0: none does
 
 void* counted(std::size_t bytes, std::size_t alignment) {
   ++allocations;
+  if (left >= 0 && left-- == 0) throw std::bad_alloc();
   void* p = alignment > 16 ? std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)
                            : std::malloc(bytes == 0 ? 1 : bytes);
   if (p == nullptr) throw std::bad_alloc();
@@ -180,6 +182,32 @@ TEST_CASE("nor where some of what stands still is moved by hand in every frame")
     if (frame >= 100) in_query += allocations - before;
   }
   CHECK(in_query == 0);
+}
+
+TEST_CASE("who leaves the lattice while memory is out is seen when there is some again") {
+  int failed = 0;
+  for (const Hiding hiding : {Hiding::silhouette, Hiding::voxel}) {
+    for (long at = 0; at < 4; ++at) {
+      GridOptions options{.dimension = 2, .bounds = {{0, 0, 0}, {100, 100, 0}}, .cell = 1.0};
+      options.hiding = hiding;
+      GridEngine engine(options);
+      engine.add({.id = 1, .shape = Disc{1.0}, .pose = {{90, 50, 0}}});
+      const std::vector<View> views{View{.viewer = 1, .pose = {{50, 50, 0}}}};
+      Answers answers;
+      for (int frame = 0; frame < 4; ++frame) engine.query(frame, views, answers);
+      engine.move(1, {{130, 50, 0}});
+      left = at;
+      try {
+        engine.query(4.0, views, answers);
+      } catch (const std::bad_alloc&) {
+        ++failed;
+      }
+      left = -1;
+      engine.query(5.0, views, answers);
+      CHECK(answers.views[0].visible == std::vector<ObjectId>{1});
+    }
+  }
+  MESSAGE(failed << " frames ran out of memory");
 }
 
 TEST_CASE("a steady frame allocates nothing") {

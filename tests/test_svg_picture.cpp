@@ -163,6 +163,19 @@ TEST_CASE("of a box about objects those cells are hidden that lie within it, and
   CHECK(path_of(sink.plane(CellLayer::visited, 0).merged()) == "M3 5h2v1h-2z");
 }
 
+TEST_CASE("cells are those meant, however far from 0 they lie") {
+  for (const double far : {0.0, 5.5e6, 1.2e8, 9e8}) {
+    CAPTURE(far);
+    const Lattice lattice(2, {{far, far, 0}, {far + 8, far + 8, 0}}, 0.1, 1 << 20);
+    PictureSink sink(lattice);
+    for (std::int64_t i = 0; i < 80; ++i) {
+      const Vec3 low(lattice.boundary(0, i), lattice.boundary(1, 3), 0);
+      sink.cells(CellLayer::hidden, low, {lattice.boundary(0, i + 1), lattice.boundary(1, 4), 0});
+    }
+    CHECK(path_of(sink.plane(CellLayer::hidden, 0).merged()) == "M0 3h80v1h-80z");
+  }
+}
+
 TEST_CASE("in three dimensions only the viewer's layer is drawn") {
   const Lattice lattice(3, {{0, 0, 0}, {10, 10, 10}}, 1.0, 1 << 20);
   PictureSink sink(lattice);
