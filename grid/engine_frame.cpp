@@ -75,7 +75,7 @@ void GridEngine::State::discretise() {
     follow_pushed();
   }
   stale.clear();
-  if (world.silhouettes) world.silhouettes->settle([this](Slot slot) { return world.objects[slot].is_static; });
+  if (world.silhouettes) world.silhouettes->settle();
 }
 
 // A viewer that jumped may stand inside an outline without having crossed it: such outlines become solid.

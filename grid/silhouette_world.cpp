@@ -157,6 +157,15 @@ void SilhouetteWorld::note_static(Slot slot) {
   ++marked_;
 }
 
+void SilhouetteWorld::settle() {
+  ++age_;
+  if (!worth_settling()) return;
+  for (const Slot slot : unsettled_) {
+    if (!index.holds(slot)) unmark(slot);  // moved out of the lattice
+  }
+  build_rows();
+}
+
 // A slot that was used again may be there twice.
 void SilhouetteWorld::forget_unmarked() {
   std::erase_if(unsettled_, [&](Slot slot) { return (index.marks(slot) & is_unsettled) == 0; });

@@ -138,17 +138,8 @@ class SilhouetteWorld {
 
   /// 2D: a static object shall have a row from the next settle() on, if it hangs in `index`.
   void note_static(Slot slot);
-  /// Gives static objects their rows, when enough are waiting for it or have left. `keeps(slot)`: whether a slot that
-  /// was noted is a static object still.
-  template <class Keeps>
-  void settle(Keeps&& keeps) {
-    ++age_;
-    if (!worth_settling()) return;
-    for (const Slot slot : unsettled_) {
-      if (!index.holds(slot) || !keeps(slot)) unmark(slot);
-    }
-    build_rows();
-  }
+  /// Gives static objects their rows, when enough are waiting for it or have left.
+  void settle();
 
   LooseIndex index;
   OutlineStore outlines;  ///< 2D
